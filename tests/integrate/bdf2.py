@@ -9,10 +9,11 @@ what is predicted by the polynomial through earlier points, less y1, in the shar
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import DONE, factorise_step, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_step, solve, solve_watched
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep, trial_of
@@ -89,7 +90,7 @@ def estimate(point, method, h, a0):
 
 
 @compiled
-def interpolate(m, h):
+def prepare_interpolant(m, h):
     """The parabola through the point before, the point and the end; after a settlement, with the slope of the point."""
     point, method = m.point, m.method
     n, K, D = point.n, reals(method.at_K, method.stages * point.n), reals(point.at_D, 3 * point.n)
@@ -132,5 +133,5 @@ def forget(m):
     reals(m.method.at_K, end)[end + KNOWN] = 0.0
 
 
-METHOD = Method(trial_of(OneStep(take, interpolate)), arrive_and_remember, forget)
+METHOD = Method(trial_of(OneStep(take, prepare_interpolant)), arrive_and_remember, forget)
 BDF2 = Engine("bdf2", __name__, (__file__,), lambda run, problem: {"error_exponent": 1.0 / 3.0})

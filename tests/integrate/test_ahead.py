@@ -11,7 +11,7 @@ import pytest
 from fairlead import native, sealed
 from fairlead.errors import UsageError
 from fairlead.integrate import ahead, machine_code
-from fairlead.integrate.bitcode import APART, _told, keep, kept_with_native, make_here
+from fairlead.integrate.bitcode import SEPARATOR, _told, keep, kept_with_native, make_here
 from fairlead.integrate.engine import Engine
 from fairlead.kernels.lowering import lower
 
@@ -146,7 +146,7 @@ def test_what_is_missing_is_made_by_one_process_that_is_told_all_of_it(installed
 
     def make(targets):
         asked.append([code for code, _ in targets])
-        words = [word for code, path in targets for word in (APART, str(path), code.module, *code.sources)]
+        words = [word for code, path in targets for word in (SEPARATOR, str(path), code.module, *code.sources)]
         assert _told(words) == targets
         for code, path in targets:
             ahead.write(path, bitcode(code.fingerprint()))

@@ -56,4 +56,4 @@ def test_no_index_lies_outside_in_runs_of_both_engines(tmp_path):
 def test_two_structs_with_one_name_are_refused():
     """The arrays of both would be one, as long as the second says, and the loop of the first would write beyond it."""
     with pytest.raises(ValueError, match="second declares slips, which first has"):
-        check_names({"first": Struct(reals={"slips": "n"}), "second": Struct(indices={"slips": "n_zones"})})
+        check_names({"first": Struct(reals={"slips": "n"}), "second": Struct(indices={"slips": "n_machines"})})

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from fairlead.integrate import Run, integrate
+from fairlead.integrate.codes import DONE, INACCURATE
 from fairlead.integrate.linear import condensing, ordering
 from fairlead.integrate.linear.condensing import columns_of, starts_of
 from fairlead.integrate.linear.replan import fresh_plan
@@ -20,8 +21,6 @@ from tests.integrate.rooms import machine_code
 
 NOTHING_KEPT = np.zeros((0, 3), dtype=np.int64)
 
-FACTORED, INACCURATE = 0, 2
-
 
 @functools.cache
 def solver():
@@ -32,7 +31,7 @@ def solver():
     def run(address, scale, at_x):
         linear = memory_at(address).linear
         status = factorise_step(linear, scale) if scale > 0.0 else factorise_consistent(linear)
-        return status if status != 0 else solve_watched(linear, at_x)
+        return status if status != DONE else solve_watched(linear, at_x)
 
     return machine_code("assemble, factorise, solve", "idi", "i", lambda: run)
 
@@ -147,7 +146,7 @@ def test_one_plan_serves_every_zone_and_step_sizes_over_nine_decades(make_plan, 
             status, x = solve_with(memory, problem, J, M, scale, b)
             if np.linalg.cond(W / np.abs(W).max(axis=1, keepdims=True)) > 1e14:
                 continue  # a loop of held contacts: redundant, no solver has an answer
-            assert status == FACTORED
+            assert status == DONE
             scaled = np.abs(W) @ np.abs(x) + np.abs(b)
             # The watch lets a backward error of 1e-9 pass; partial pivoting stays below 1e-12.
             assert np.max(np.abs(W @ x - b)) / np.max(scaled) < 1e-9
@@ -165,7 +164,7 @@ def test_the_matrix_of_the_consistent_point_is_factored_along_the_same_plan(seed
             continue
         b = rng.standard_normal(len(C))
         status, x = solve_with(memory, problem, J, M, 0.0, b)
-        assert status == FACTORED
+        assert status == DONE
         np.testing.assert_allclose(x, np.linalg.solve(C, b), rtol=1e-6, atol=1e-8)
 
 
@@ -175,7 +174,7 @@ def test_a_right_side_that_has_all_but_vanished_is_no_failure_of_the_factors(siz
     problem, matrices = mechanical_network(np.random.default_rng(5), bodies=20, contacts=4)
     J, M = matrices(np.ones(4), 1e3)
     status, x = solve_with(memory_for(problem, planned(problem)), problem, J, M, 1e3, np.full(len(J), size))
-    assert status == FACTORED
+    assert status == DONE
     assert np.abs(x).max() <= 1e3 * size
 
 
@@ -193,7 +192,7 @@ def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     assert plan is not None
     fresh = memory_for(problem, plan)
     status, x = solve_with(fresh, problem, J, M, 1e3, b)
-    assert status == FACTORED
+    assert status == DONE
     np.testing.assert_allclose(x, np.linalg.solve(1e3 * M - J, b), rtol=1e-8)
 
 
@@ -210,7 +209,7 @@ def test_pivots_that_vanish_are_perturbed_and_the_solution_is_that_of_the_matrix
         if np.linalg.cond(W / np.abs(W).max(axis=1, keepdims=True)) > 1e10:
             continue
         status, x = solve_with(memory, problem, J, M, scale, b)
-        assert status == FACTORED
+        assert status == DONE
         assert memory.number["n_perturbed"] >= np.count_nonzero(zones == 0)
         size = np.abs(W) @ np.abs(x) + np.abs(b)
         assert np.max(np.abs(W @ x - b)) < 1e-9 * np.max(size)
@@ -225,7 +224,7 @@ def test_with_more_of_them_than_may_be_other_pivots_are_asked_for_and_a_singular
     J, M = matrices(np.zeros(4), 1e3)
     b = rng.standard_normal(len(J))
     assert solve_with(memory_for(problem, plan, perturbed=3), problem, J, M, 1e3, b)[0] == INACCURATE
-    assert solve_with(memory_for(problem, plan, perturbed=4), problem, J, M, 1e3, b)[0] == FACTORED
+    assert solve_with(memory_for(problem, plan, perturbed=4), problem, J, M, 1e3, b)[0] == DONE
     J[:, -2], M[:, -2] = 0.0, 0.0  # nothing depends on the last force
     assert solve_with(memory_for(problem, plan, perturbed=8), problem, J, M, 1e3, b)[0] == INACCURATE
 
@@ -313,7 +312,7 @@ def test_columns_that_did_not_change_are_kept_and_the_factors_are_those_of_a_ful
             continue
         fresh = memory_for(problem, plan)
         answers = [solve_with(memory, problem, J, M, 1e3, b) for memory in (kept, fresh)]
-        assert answers[0][0] == answers[1][0] == FACTORED
+        assert answers[0][0] == answers[1][0] == DONE
         np.testing.assert_array_equal(kept.array["pivot"], fresh.array["pivot"])
         np.testing.assert_array_equal(answers[0][1], answers[1][1])
         np.testing.assert_allclose(answers[0][1], np.linalg.solve(1e3 * M - J, b), rtol=1e-7, atol=1e-12)

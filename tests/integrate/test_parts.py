@@ -24,7 +24,7 @@ OF_A_SETTLEMENT = {
     "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest", "without_answer",
 }  # fmt: skip
 OF_A_STEP = {
-    "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip", "skip_meters",
+    "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip",
     "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "assumed",
     "invalidated",

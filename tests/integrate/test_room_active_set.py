@@ -69,7 +69,7 @@ def chain(order, margins, excess):
     fired = [order[k] for k in excess]
     g[fired] = list(excess.values())
     return memory(
-        {"n_guards": n, "n_zones": n, "n_fired": len(fired), "n_neighbours": 2 * n - 2},
+        {"n_guards": n, "n_machines": n, "n_fired": len(fired), "n_neighbours": 2 * n - 2},
         guard_machine=np.arange(n), limit_guard=np.ones(n), g_end=g, guard_tolerance=np.full(n, 1e-9),
         fired=[*fired, *[0] * (n - len(fired))], g_probe=np.zeros(n), first_guard=np.arange(n), zones=np.zeros(n),
         neighbour_starts=np.cumsum([0, *map(len, neighbours)]), neighbours=np.concatenate(neighbours),
@@ -123,7 +123,7 @@ def test_four_tries_find_a_jump_to_a_thousandth_of_a_step_where_the_load_changes
     def load(t):
         return rate * (t - due) + curve * (t - due) ** 2
 
-    at = memory({"n_guards": 1, "n_zones": 1, "n_fired": 1, "gap": gap, "t": 0.0}, fired=[0],
+    at = memory({"n_guards": 1, "n_machines": 1, "n_fired": 1, "gap": gap, "t": 0.0}, fired=[0],
                 g=[load(-gap)], g_end=[0.0], guard_tolerance=[1e-9], is_mean=[1])  # fmt: skip
     h, told = 1.0, 1.0
     for _ in range(TRIES + 1):

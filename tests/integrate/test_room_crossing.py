@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear import ordering
 from tests.integrate.rooms import entry, fields, memory
 from tests.integrate.test_linear import memory_for
@@ -50,7 +51,7 @@ def grown():
     @compiled
     def watch(m):
         assemble_consistent(m.linear)
-        if factorise_dense(m.linear.factors) == 0:
+        if factorise_dense(m.linear.factors) == DONE:
             watch_growth(m)
 
     return entry(watch, ("",))

@@ -43,7 +43,7 @@ def test_a_pattern_of_zones_that_was_in_force_in_this_stage_is_known_again(seed)
     rng = np.random.default_rng(seed)
     machines, passes, begins = 3, 30, int(rng.integers(0, 10))
     zones = np.zeros(machines, np.int64)
-    at = memory({"n_zones": machines, "max_passes": passes}, zones=zones, patterns_met=np.zeros(passes + 1),
+    at = memory({"n_machines": machines, "max_passes": passes}, zones=zones, patterns_met=np.zeros(passes + 1),
                 zones_history=np.zeros((passes + 1) * machines))  # fmt: skip
     at.point("zones", zones, np.int64)
     seen = []
@@ -64,7 +64,7 @@ def test_which_machine_goes_first_does_not_hang_on_the_order_in_which_they_are_s
 
     def chosen(order):
         at = memory(
-            {"n_zones": machines, "n_guards": machines, "n_fired": machines}, guard_machine=np.arange(machines),
+            {"n_machines": machines, "n_guards": machines, "n_fired": machines}, guard_machine=np.arange(machines),
             guard_tolerance=tolerance[order], fired=np.arange(machines), rank=np.zeros(machines),
         )  # fmt: skip
         numbered()(at, g[order].copy())

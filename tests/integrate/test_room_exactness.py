@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear import ordering
 from tests.integrate.rooms import entry, fields
 from tests.integrate.test_linear import NOTHING_KEPT, memory_for, pattern_of
@@ -26,7 +27,7 @@ def refined():
     @compiled
     def refine(m, h):
         assemble_step(m.linear, 2.0 / h)
-        if factorise_dense(m.linear.factors) == 0:
+        if factorise_dense(m.linear.factors) == DONE:
             refine_end(m.problem, m.point, m.linear, m.stepping, h)
 
     return entry(refine, ("",), "d")
@@ -34,15 +35,15 @@ def refined():
 
 @functools.cache
 def metered():
-    """call(memory, h): `meter_piece` with the factors of 2M/h - J."""
+    """call(memory, h): `integrate_quadratures` with the factors of 2M/h - J."""
     from fairlead.integrate.linear.systems import factorise_step
     from fairlead.integrate.memory.foreign import compiled
-    from fairlead.integrate.point.meters import meter_piece
+    from fairlead.integrate.point.quadratures import integrate_quadratures
 
     @compiled
     def meter(m, h):
-        if factorise_step(m.linear, 2.0 / h) == 0:
-            meter_piece(m, h)
+        if factorise_step(m.linear, 2.0 / h) == DONE:
+            integrate_quadratures(m, h)
 
     return entry(meter, ("",), "d")
 

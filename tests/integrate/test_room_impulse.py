@@ -7,12 +7,12 @@ import functools
 import numpy as np
 import pytest
 
+from fairlead.integrate.codes import DONE, RELEASED, RUBBED
 from fairlead.integrate.linear import ordering
 from tests.integrate.rooms import entry, fields
 from tests.integrate.test_linear import memory_for
 from tests.integrate.test_room_linear import algebraic
 
-DONE, RELEASED, RUBBED = 0, 6, 7
 LIMITED, UNLIMITED = 1, 2
 TINY = 1e-9  # error weight of a speed [m/s]
 
@@ -28,7 +28,7 @@ def struck():
     def strike(m):
         assemble_consistent(m.linear)
         status = factorise_dense(m.linear.factors)
-        return status if status != 0 else resolve_impact(m)
+        return status if status != DONE else resolve_impact(m)
 
     return entry(strike, ("",), "", "i")
 

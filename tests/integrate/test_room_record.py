@@ -55,7 +55,7 @@ def test_a_zone_change_has_its_time_and_pass():
 @pytest.mark.parametrize(("rows", "events", "enough"), [(6, 0, True), (7, 0, False), (0, 15, True), (0, 16, False)])
 def test_there_is_room_for_a_settlement_or_the_buffer_is_emptied_first(rows, events, enough):
     """Four rows, and a change of every machine and guard: 2 + 3 here."""
-    numbers = {"rows": rows, "events": events, "row_capacity": 10, "event_capacity": 20, "n_zones": 2, "n_guards": 3}
+    numbers = {"rows": rows, "events": events, "row_capacity": 10, "event_capacity": 20, "n_machines": 2, "n_guards": 3}
     assert roomy()(memory(numbers)) == enough
 
 

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pytest
 
-from fairlead.integrate.codes import KNOWN_ZONES
+from fairlead.integrate.codes import DONE, KNOWN_ZONES
 from fairlead.integrate.linear.condensing import columns_of
 from tests.integrate.rooms import entry, fields, memory
 from tests.integrate.test_linear import mechanical_network, memory_for, planned
@@ -87,6 +87,13 @@ def turned():
 
 
 @functools.cache
+def speed_off():
+    from fairlead.integrate.stepping import other_zones
+
+    return entry(other_zones.speed_off, ("problem", "point", "linear.matrices"), "dd", "i")
+
+
+@functools.cache
 def kept():
     from fairlead.integrate.stepping.history import choose_next_step
 
@@ -110,7 +117,7 @@ class Contacts:
             starts[name] = np.concatenate([[0], np.cumsum([len(one) for one in own])])
             found[name] = np.concatenate(own)
             number[f"n_own_{name}s" if name == "slope" else "n_own_masses"] = len(found[name])
-        number["n_zones"], number["n_known"] = contacts, KNOWN_ZONES * contacts
+        number["n_machines"], number["n_known"] = contacts, KNOWN_ZONES * contacts
         given = {
             "own_row": self.rows, "own_slope_starts": starts["slope"], "own_slopes": found["slope"],
             "own_slope_columns": columns_of(problem.pattern)[found["slope"]], "own_mass_starts": starts["mass"],
@@ -139,7 +146,7 @@ class Contacts:
         J, M = self.matrices()
         self.at.array["jacobian"][:] = J[self.problem.pattern.rows, columns_of(self.problem.pattern)]
         self.at.array["mass"][:] = M[self.problem.mass_pattern.rows, columns_of(self.problem.mass_pattern)]
-        assert evaluated()(self.at, SCALE) == 0
+        assert evaluated()(self.at, SCALE) == DONE
 
     def check(self, rng):
         """The factors are those of the zones in force."""
@@ -241,7 +248,7 @@ H, MASS, OF_PLACE, OF_SPEED, OF_FORCE = 0.02, 3.0, 1e-5, 1e-3, 1e-2
 def one_body(stiffness=0.0, inertia=MASS, weights=(OF_PLACE, OF_SPEED, OF_FORCE), **given):
     """Place, speed and the force of a contact that holds the body; v' = -k x/m + ..."""
     return memory(
-        {"n": 3, "n_zones": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})},
+        {"n": 3, "n_machines": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})},
         weight=weights, held_inertia=[inertia], body_starts=[0, 1], body_position=[0], body_speed=[1], hold_row=[2],
         jacobian_starts=[0, 1, 2, 2], jacobian_rows=[1, 0], jacobian=[-stiffness, 1.0], **given,
     )  # fmt: skip
@@ -254,6 +261,22 @@ def test_a_peak_of_force_moves_the_body_for_the_step_or_until_a_spring_takes_it_
     assert peak(one_body(stiffness=1.0), H, 0, force) == pytest.approx(force * H**2 / MASS / OF_PLACE)
     assert peak(one_body(stiffness=1e7), H, 0, force) == pytest.approx(force / 1e7 / OF_PLACE)
     assert peak(one_body(inertia=0.0), H, 0, force) == pytest.approx(force / OF_FORCE)
+
+
+@pytest.mark.parametrize("per_mean", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize("stiffness", [0.0, 1e6])
+def test_forces_of_other_zones_count_where_the_speed_and_the_place_they_lead_to_are_off(stiffness, per_mean):
+    """dv = F T/(p m) with the mean F/p; a spring turns that into a way of dv sqrt(m/k), and the lesser error counts."""
+    lasting, of_speed = 0.3 * H, OF_PLACE / 1e-4
+    weight = of_speed if stiffness == 0.0 else max(of_speed, OF_PLACE / (MASS / stiffness) ** 0.5)
+    just = weight * per_mean * MASS / lasting  # the force that is off by one weight
+    for force, counts in ((0.99 * just, False), (-0.99 * just, False), (1.01 * just, True), (-1.01 * just, True)):
+        at = one_body(
+            stiffness, weights=(OF_PLACE, of_speed, OF_FORCE), x=[0.0, 5.0, 1.0], f=[0.0, 5.0 + force, 2.0],
+            position_of=[-1, 0, -1], mass=[1.0, MASS], mass_starts=[0, 1, 2, 2], mass_rows=[0, 1],
+            numbers={"n_mass": 2},
+        )  # fmt: skip
+        assert speed_off()(at, lasting, per_mean) == (1 if counts else -1)
 
 
 def test_a_force_that_is_missed_leaves_a_speed_or_the_way_a_spring_allows_it():
@@ -357,7 +380,7 @@ def halved():
 @pytest.mark.parametrize("seed", range(5))
 def test_a_fixed_step_that_was_halved_is_made_up_before_the_next_of_full_length(seed):
     """Halves of halves at random: the count is zero when the steps taken since add up to a full one."""
-    from fairlead.integrate.stepping.theta_step import DIVERGES
+    from fairlead.integrate.codes import DIVERGES
 
     rng, at, h, done = np.random.default_rng(seed), memory({"n": 1, "adaptive": 0}), 1.0, 0.0
     for _ in range(3):

@@ -31,7 +31,7 @@ def test_energy_closes_to_a_millionth_of_what_passed_through(bundled, name: str)
 
 @pytest.mark.parametrize(("settings", "closure"), [({}, 1e-3), ({"run.accuracy": 1e-6, "creep": "1e-5 m/s"}, 3e-5)])
 def test_energy_closes_where_stiff_contacts_creep_in_long_steps(bundled, settings, closure: float) -> None:
-    """By the stages of the method alone, 1e-2 and 6e-5 of it was missing: see integrate/meters.py."""
+    """By the stages of the method alone, 1e-2 and 6e-5 of it was missing: see integrate/point/quadratures.py."""
     result = bundled("sandwich", {"friction.method": "binding", **settings})
     assert result.run["energy"]["closure"] < closure
     heat = result["energy.dissipated"]

@@ -81,10 +81,8 @@ def stubs(code: Code) -> str:
 
 
 def _statuses() -> Mapping[str, int]:
-    """Statuses by the names that the wrapper has for them."""
-    named = ("PAUSED", "BUFFER_FULL", "REPLAN", "STEP_FLOOR", "NOT_FINITE", "UNSETTLED", "INCONSISTENT", "CHATTER",
-             "MAX_STEPS", "MAX_EVENTS", "REBOUND_RUBS", "GIVEN_APART")  # fmt: skip
-    return {name: getattr(codes, name) for name in named} | {"SINGULAR": int(Status.SINGULAR)}
+    """All statuses of a run; the wrapper has a sentence for each that its loop can return."""
+    return {status.name: int(status) for status in Status}
 
 
 def _array(declared: str, values: Iterable[str]) -> str:

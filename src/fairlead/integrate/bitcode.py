@@ -92,13 +92,13 @@ def _make(code: Compiled, path: pathlib.Path) -> None:
     _make_together([(code, path)])
 
 
-APART = "--"
+SEPARATOR = "--"
 """Between what is made together, on the command line of the process that makes it."""
 
 
 def _make_together(targets: Sequence[tuple[Compiled, pathlib.Path]]) -> None:
     """The same for several, in one process."""
-    told = [word for code, path in targets for word in (APART, str(path), code.module, *code.sources)]
+    told = [word for code, path in targets for word in (SEPARATOR, str(path), code.module, *code.sources)]
     subprocess.run([sys.executable, "-m", "fairlead.integrate.bitcode", *told], env=os.environ | SETTINGS, check=True)
 
 
@@ -139,14 +139,14 @@ def make_all(folder: pathlib.Path) -> None:
 
 def _told(words: Sequence[str]) -> list[tuple[Compiled, pathlib.Path]]:
     """What `_make_together` asks for."""
-    starts = [k for k, word in enumerate(words) if word == APART]
+    starts = [k for k, word in enumerate(words) if word == SEPARATOR]
     groups = [words[k + 1 : end] for k, end in zip(starts, [*starts[1:], len(words)], strict=True)]
     return [(Compiled(module, tuple(sources)), pathlib.Path(path)) for path, module, *sources in groups]
 
 
 if __name__ == "__main__":
     gc.disable()  # what numba makes stays till the end
-    if sys.argv[1] == APART:
+    if sys.argv[1] == SEPARATOR:
         make_here(_told(sys.argv[1:]))
     else:
         make_all(pathlib.Path(sys.argv[1]))

@@ -1,6 +1,8 @@
-"""What compiled code and Python both know: phases of the loop, statuses, limits.
+"""What compiled code and Python both know: phases of the loop, what functions return, limits.
 
-Phases and statuses are numbers, the latter those of problem.Status: compiled code knows no enumerations.
+All are numbers, as compiled code knows no enumerations. Of what functions return no two have the same number, so that
+one is not taken for another: statuses of a run, which leave the loop, and outcomes of a solve, a settlement or a step,
+which do not.
 """
 
 from __future__ import annotations
@@ -10,11 +12,24 @@ START, TRY, RECORD, ARRIVE, SETTLE, WAKE = 0, 1, 2, 3, 4, 5
 NONE_DUE, SAMPLE_DUE, SETTLING_FOR_IT = 0, 1, 2
 """Of the first sample (first_sample.py): there is none any more, it is due, the point is being settled for it."""
 
+FINISHED = 0
+PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = -1, -2, -3, -4, -5
+STEP_FLOOR, NOT_FINITE, NOT_SETTLED, INCONSISTENT, SINGULAR_MATRIX, CHATTER = 1, 2, 3, 4, 5, 6
+MAX_STEPS, MAX_EVENTS, MAX_WALL, INTERRUPTED, REBOUND_RUBS, ENDED, GIVEN_APART = 7, 8, 9, 10, 11, 12, 13
+"""Statuses: how a run ended, or below zero what Python is to do before it goes on. The loop returns them,
+problem.Status has their names (SINGULAR for SINGULAR_MATRIX), and FMUs are compiled with them (fmu/header.py): they
+keep their numbers."""
+DONE, SINGULAR, INACCURATE = 20, 21, 22
+"""Outcomes, of a factorisation or a solve: as it should be; no pivot, `culprit` is open; other pivots are needed."""
+NOT_CONSISTENT, TOO_MANY_PASSES, NO_ROOM, RELEASED, RUBBED, APART = 30, 31, 32, 33, 34, 35
+"""Outcomes of a settlement, besides: no values, or no impulse, that the equations agree with; zones that change without
+end; a full buffer; other zones, so that another pass has to follow; a rebound with friction; motions that are given
+part what is to hold together."""
+CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH = 40, 41, 42, 43, 44
+"""Outcomes of a step of `stepping`, besides: its zones go in a circle; its iteration does not converge; a law jumps in
+it, at `t_cut`. Inside its iteration only: another solve is to follow; or all of them, without the rows of the cache."""
 GO_ON = 100
-"""Not a status of a run: the loop takes the next phase."""
-FINISHED, PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = 0, -1, -2, -3, -4, -5
-STEP_FLOOR, NOT_FINITE, UNSETTLED, INCONSISTENT, SINGULAR_MATRIX = 1, 2, 3, 4, 5
-CHATTER, MAX_STEPS, MAX_EVENTS, REBOUND_RUBS, GIVEN_APART = 6, 7, 8, 11, 13
+"""The outcome of a phase: the loop takes the next one."""
 
 KNOWN_ZONES = 8
 """Rows of a machine are remembered for so many zones (stepping/row_cache.py); those of more are not."""

@@ -29,12 +29,12 @@ COUNTS = (
     "partial_steps",
     "projections",
 )
-"""Counters kept by the compiled loop, in the order they lie in memory."""
+"""Counters kept by the compiled loop, each in the struct of its owner (memory/of_*.py)."""
 
 
 @dataclass(frozen=True)
 class Counters:
-    """Counts of one run; the arrays are by machine."""
+    """Counts of one run."""
 
     steps: int
     """Accepted steps, each up to its end or to the first switch inside it."""
@@ -45,8 +45,9 @@ class Counters:
     rejected_companion: int
     """Steps given up because a guard turned out positive without having crossed."""
     rejected_switch: int
-    """Steps taken again to end at a switch: of `stepping` where a law jumps there, or an impulse was missed; of `rodas`
-    where the piece up to the switch does not satisfy the equations (one_step.py)."""
+    """Steps taken again to end at a switch. Where steps end at every switch, as those of `rodas`: the piece up to there
+    did not satisfy the equations (one_step.py). Of `stepping` with switches inside: a law jumps there, or an impulse
+    was missed. Where such a law jumps at the start of the step, that was settled, and counts here too."""
     rejected_cycling: int
     """Steps of `stepping` whose zones went in a circle."""
     rejected_diverged: int
@@ -62,7 +63,8 @@ class Counters:
     switches: int
     """Zone changes, all machines."""
     located: int
-    """Instants located inside a step at which guards fired."""
+    """Ends of pieces at which zones were settled: where guards fired inside a step, and of `stepping` also where it
+    ends at the jump of a law, or at a sample."""
     settling_passes: int
     time_events: int
     replans: int
@@ -72,8 +74,10 @@ class Counters:
     projections: int
     """Ends of steps brought back to relations of positions that are kept, see position.py."""
     switches_by_machine: NDArray[np.int64]
+    """[machines]: zone changes of each."""
     rejections_by_unknown: NDArray[np.int64]
-    """How often each unknown had the largest error of a step that was rejected, or ended at a switch, for its error."""
+    """[n]: how often each unknown had the largest error of a step that was rejected, or ended at a switch, for its
+    error."""
 
     @property
     def rejected(self) -> int:

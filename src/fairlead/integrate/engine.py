@@ -1,8 +1,11 @@
 """What Python knows of a method of integration; what it does in the loop is in loop.py (Method).
 
-A method of one's own is one file: compiled functions, `METHOD = method_of(OneStep(take, interpolate))` or a `Method` of
-its own, and an `Engine` that names the file. `Run(stop=..., engine=that)` integrates with it: events, holds,
-settlements, records and budgets are those of all methods.
+A method of one's own is one file: compiled functions, `METHOD = method_of(OneStep(take, prepare_interpolant))` or a
+`Method` of its own, and an `Engine` that names the file. `Run(stop=..., engine=that)` integrates with it: events,
+holds, settlements, records and budgets are those of all methods. What `prepare_interpolant` leaves is the D of
+point/interpolant.py. What the method remembers of earlier steps it keeps in the arena, in the room for the stages of a
+tableau (`method.at_K`), as tests/integrate/bdf2.py does. Steps go with error^-error_exponent, 1/(order of the error +
+1): unless `numbers` sets that, it is of the tableau of `rodas` (`Run.method`).
 """
 
 from __future__ import annotations

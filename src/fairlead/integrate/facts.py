@@ -65,7 +65,7 @@ class Facts(Protocol):
 
     @property
     def met_guard(self) -> Integers:
-        """Guards of places at which a stop is met that takes any impulse: known to rounding (settling.py)."""
+        """Guards of places at which a stop is met that takes any impulse: known to rounding (violators.py)."""
 
     @property
     def takes_impulse(self) -> Integers:
@@ -106,7 +106,7 @@ class Facts(Protocol):
 
     @property
     def ledger(self) -> tuple[int, int]:
-        """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse.py)."""
+        """Unknowns in which what is dissipated and what is supplied adds up, -1 for none (impulse_changes.py)."""
 
     @property
     def linear(self) -> bool:
@@ -130,10 +130,6 @@ class Facts(Protocol):
     @property
     def beyond_row(self) -> Integers:
         """Machines whose switch changes more rows of J and M than the one they hold: these are evaluated then."""
-
-    @property
-    def share_rows(self) -> Integers:
-        """Rows, none of them a contact's, that say how contacts in circles share what they hold."""
 
     @property
     def circle(self) -> Integers:
@@ -289,11 +285,6 @@ class Plain:
 
     @property
     def beyond_row(self) -> Integers:
-        """None."""
-        return np.zeros(0, dtype=np.int64)
-
-    @property
-    def share_rows(self) -> Integers:
         """None."""
         return np.zeros(0, dtype=np.int64)
 

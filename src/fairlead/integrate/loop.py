@@ -3,8 +3,8 @@
     START    point = (start, y0); at_time; settle it (staged)
     while point.t < stop:
         TRY      method.attempt: h = propose(point)        # clipped to land on time events
-                 trial = step(point, h)                    # the minor step: M and J frozen, and zones unless
-                                                           # the method finds those of the end
+                 trial = step(point, h)                    # the minor step: zones frozen, and M and J with them;
+                                                           # not so where `stepping` finds the zones of the end
                  rejected: shrink h; TRY again
                  given up: SETTLE at the point
                  accepted: up to the first crossing, or to the end
@@ -57,8 +57,8 @@ class Method(NamedTuple):
 
 
 @compiled
-def arrive_located(m):
-    """Arrive at the end of a piece, where crossings are places on the interpolant of the step."""
+def arrive_by_equations(m):
+    """Arrive at the end of a piece; at a crossing forces are those of the equations."""
     return arrive(m, True)
 
 
@@ -69,7 +69,7 @@ def nothing_kept(m):
 
 def method_of(steps: OneStep) -> Method:
     """The method that takes such steps, and keeps nothing of them."""
-    return Method(trial_of(steps), arrive_located, nothing_kept)
+    return Method(trial_of(steps), arrive_by_equations, nothing_kept)
 
 
 def loop_of(method: Method) -> Callable[[int, int], int]:

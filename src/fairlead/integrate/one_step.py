@@ -5,7 +5,7 @@ A method says how it takes a step from (t, y) in frozen zones, and how that is i
 and its error in `error_vector`, zero where it knows none. A Newton iteration that fails leaves a nan there: a quarter
 of the step comes next. Weights are those of the last step until `take` is done (`weigh` sets them). Row k of what holds
 says dv/dt = -v/tau, so a method that does not damp multiplies a slip by -1. `factors.factored_h` is the step for which
-W is factorised; a settlement sets it to zero, and defect.py and meters.py solve with those factors.
+W is factorised; a settlement sets it to zero, and defect.py and quadratures.py solve with those factors.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Callable
 from math import inf, isfinite
 from typing import Any, NamedTuple
 
-from fairlead.integrate.codes import GO_ON, NOT_FINITE, REPLAN, SINGULAR_MATRIX, STEP_FLOOR
+from fairlead.integrate.codes import GO_ON, INACCURATE, NOT_FINITE, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import dwell_here
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
@@ -30,12 +30,11 @@ from fairlead.integrate.events.pace import (
     smallest_step,
 )
 from fairlead.integrate.events.position import way_back
-from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import find_defect, find_midpoint_defect
 from fairlead.integrate.point.faded import error_of_faded
-from fairlead.integrate.point.meters import judge_meters
+from fairlead.integrate.point.quadratures import judge_quadratures
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
 
@@ -55,8 +54,8 @@ class OneStep(NamedTuple):
 
     take: Callable[..., Any]
     """take(m, h): `y_end` and `error_vector` of the step from the point; DONE, SINGULAR or INACCURATE (systems.py)."""
-    interpolate: Callable[..., Any]
-    """interpolate(m, h): the D of interpolant.py, for a step whose error is small enough."""
+    prepare_interpolant: Callable[..., Any]
+    """prepare_interpolant(m, h): the D of interpolant.py, for a step whose error is small enough."""
 
 
 def trial_of(method: OneStep) -> Any:
@@ -95,7 +94,7 @@ def judge_end(problem, run, point, recorder, status):
     run.error = inf
     if status != SINGULAR:
         run.error = estimate_error(point)
-        judge_meters(run, point, recorder)
+        judge_quadratures(run, point, recorder)
         judge_swings(problem, run, point, run.h)
 
 

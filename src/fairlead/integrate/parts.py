@@ -1,6 +1,6 @@
 """What the loop works on: the whole problem, or the part of it that moves.
 
-A problem that can say what is at rest (`narrowing`, see problem.py) is cut down to what moves, with a margin, when
+A problem that can say what is at rest (`narrowing`, see facts.py) is cut down to what moves, with a margin, when
 that is much less; and woken when a contact at the rim of the part lets go. Steps, switches and error control are
 those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
 runs do the same.
@@ -39,7 +39,7 @@ FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 BLOCKED = 1e300
 
 CARRIED = (
-    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "meters_off", "grid_next", "stalls",
+    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "quadratures_off", "grid_next", "stalls",
     "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",

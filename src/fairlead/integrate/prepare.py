@@ -61,7 +61,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
     plan, light = ordering.plan(problem), of_light(problem)
     most_perturbed = MOST_PERTURBED if contacts and not plan.dense else 0
     numbers: dict[str, float] = {
-        "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
+        "n": n, "n_guards": ng, "n_machines": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size, **plan.lengths,
         "dense": int(plan.dense), "most_perturbed": most_perturbed,
         **dict(zip(("dissipated_at", "supplied_at"), problem.ledger, strict=True)),
@@ -71,12 +71,12 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_swings": problem.n_swings, "n_pressing": len(problem.pressing),
     }  # fmt: skip
     lengths = plan.lengths | {
-        "n": n, "n_guards": ng, "n_zones": nz, "n_jacobian": len(problem.pattern.rows),
+        "n": n, "n_guards": ng, "n_machines": nz, "n_jacobian": len(problem.pattern.rows),
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
         "n_met_guards": len(problem.met_guard), "n_swings": problem.n_swings, "n_pressing": len(problem.pressing),
         "pressing_square": len(problem.pressing) ** 2,
-        "three_n": 3 * n, "n_plus_1": n + 1, "n_zones_plus_1": nz + 1,
+        "three_n": 3 * n, "n_plus_1": n + 1, "n_machines_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_core": most_perturbed * plan.lengths["n_core"],
         "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,

@@ -50,6 +50,7 @@ from typing import Any, Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+import fairlead.integrate.codes as codes
 from fairlead.integrate.counters import Counters
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.facts import Facts, Narrowed
@@ -181,7 +182,11 @@ class Instance(Problem, Narrowed, Protocol):
 
     @property
     def guard_tolerance(self) -> Floats:
-        """[ng]; at an accepted point no guard may be above this."""
+        """[ng]; at an accepted point no guard may be above this.
+
+        Of a step with switches inside that is judged before its end is moved by the error of its rule
+        (docs/stepping.md).
+        """
 
     @property
     def n_outputs(self) -> int:
@@ -251,27 +256,27 @@ class Run:
 
 
 class Status(IntEnum):
-    """How a run ended (negative: inside the loop, returned to Python for service)."""
+    """How a run ended (negative: inside the loop, returned to Python for service); numbers of codes.py."""
 
-    FINISHED = 0
-    PAUSED = -1
-    BUFFER_FULL = -2
-    REPLAN = -3
-    NARROW = -4
-    WIDEN = -5
-    STEP_FLOOR = 1
-    NOT_FINITE = 2
-    NOT_SETTLED = 3
-    INCONSISTENT = 4
-    SINGULAR = 5
-    CHATTER = 6
-    MAX_STEPS = 7
-    MAX_EVENTS = 8
-    MAX_WALL = 9
-    INTERRUPTED = 10
-    REBOUND_RUBS = 11
-    ENDED = 12
-    GIVEN_APART = 13
+    FINISHED = codes.FINISHED
+    PAUSED = codes.PAUSED
+    BUFFER_FULL = codes.BUFFER_FULL
+    REPLAN = codes.REPLAN
+    NARROW = codes.NARROW
+    WIDEN = codes.WIDEN
+    STEP_FLOOR = codes.STEP_FLOOR
+    NOT_FINITE = codes.NOT_FINITE
+    NOT_SETTLED = codes.NOT_SETTLED
+    INCONSISTENT = codes.INCONSISTENT
+    SINGULAR = codes.SINGULAR_MATRIX
+    CHATTER = codes.CHATTER
+    MAX_STEPS = codes.MAX_STEPS
+    MAX_EVENTS = codes.MAX_EVENTS
+    MAX_WALL = codes.MAX_WALL
+    INTERRUPTED = codes.INTERRUPTED
+    REBOUND_RUBS = codes.REBOUND_RUBS
+    ENDED = codes.ENDED
+    GIVEN_APART = codes.GIVEN_APART
 
     @property
     def is_budget(self) -> bool:

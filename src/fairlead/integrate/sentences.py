@@ -45,7 +45,7 @@ def still_switching(memory: Memory) -> list[int]:
 
 def last_patterns(memory: Memory) -> np.ndarray:
     """Zones [passes, nz] after each of the last passes of the settlement."""
-    nz, passes = int(memory.number["n_zones"]), int(memory.number["passes"])
+    nz, passes = int(memory.number["n_machines"]), int(memory.number["passes"])
     history = memory.array["zones_history"].reshape(-1, nz)[:passes]
     return history[passes // 2 :]
 

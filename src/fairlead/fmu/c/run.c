@@ -143,7 +143,7 @@ static void tell(Run *run, int status) {
         snprintf(run->message, MESSAGE, "t = %.6g s: %s is not a finite number, whatever the step. A law divides by "
                  "zero, overflows, or is read beyond the range in which it has values.", t, unknown);
         break;
-    case STATUS_UNSETTLED:
+    case STATUS_NOT_SETTLED:
         snprintf(run->message, MESSAGE, "t = %.6g s: zones did not settle. Two laws contradict each other there.", t);
         break;
     case STATUS_INCONSISTENT:

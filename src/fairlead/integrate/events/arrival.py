@@ -4,36 +4,41 @@ from __future__ import annotations
 
 from fairlead.integrate.codes import (
     AFTER,
+    APART,
     BEFORE,
     BUFFER_FULL,
     CHATTER,
     GIVEN_APART,
     GO_ON,
+    INACCURATE,
     INCONSISTENT,
+    NO_ROOM,
+    NOT_CONSISTENT,
+    NOT_SETTLED,
     ORDINARY,
     PASSED,
     REBOUND_RUBS,
     REPLAN,
+    RUBBED,
     SAMPLE_DUE,
     SETTLE,
     SETTLING_FOR_IT,
+    SINGULAR,
     SINGULAR_MATRIX,
+    TOO_MANY_PASSES,
     TRY,
-    UNSETTLED,
 )
-from fairlead.integrate.events.consistent import NOT_CONSISTENT, correct_forces, keep_positions
+from fairlead.integrate.events.consistent import correct_forces, keep_positions
 from fairlead.integrate.events.first_sample import settle_for_sample, take_first_sample
-from fairlead.integrate.events.given_apart import APART, moves_apart
+from fairlead.integrate.events.given_apart import moves_apart
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.impulse import RUBBED
 from fairlead.integrate.events.limits import AT_LIMIT, goes_no_further
 from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
-from fairlead.integrate.events.settling import NO_ROOM, NOT_SETTLED, begin_settling, settle
+from fairlead.integrate.events.settling import begin_settling, settle
 from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
-from fairlead.integrate.linear.systems import INACCURATE, SINGULAR
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.point.controller import restart, weigh, weighted_norm
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
@@ -68,10 +73,11 @@ def start(problem, run, point, events):
 
 
 @compiled
-def arrive(m, located):
+def arrive(m, by_equations):
     """Move to the end of the piece; settle there if guards fired or a time event changed anything.
 
-    `located`: crossings are places on the interpolant of the step.
+    `by_equations`: at a crossing forces are those of the equations, in place of the interpolated ones (`judge_again`).
+    Not so of `stepping`, also where it locates crossings: its settlement there makes forces consistent.
     """
     problem, run, point, linear, events, guards = m.problem, m.run, m.point, m.linear, m.events, m.events.guards
     recorder = m.recorder
@@ -80,17 +86,17 @@ def arrive(m, located):
     on_row = run.t_piece - recorder.t_row <= 1e-12 * max(abs(run.t_piece), recorder.every)  # a point of the grid
     recorded = recorder.on_grid == 0 or (recorder.between == 1 and not on_row)
     entered_again = point.t == run.t_piece  # for other pivots; the start of the step is gone
-    at_event = run.landing == 1 and run.t_piece < run.stop and run.t_piece >= min(run.t_next, run.t_release)
-    at_switch = run.crossed == 1 or at_event
-    at_shown = shown_end(m) if (recorded or at_switch) and not entered_again else point.at_y_piece
-    if at_switch and not entered_again:
+    time_event_now = run.landing == 1 and run.t_piece < run.stop and run.t_piece >= min(run.t_next, run.t_release)
+    both_sides = run.crossed == 1 or time_event_now
+    at_shown = shown_end(m) if (recorded or both_sides) and not entered_again else point.at_y_piece
+    if both_sides and not entered_again:
         remember_shown(point, recorder, at_shown)
     point.t = run.t_piece
     run.judged = 0
     copy(reals(point.at_y_piece, problem.n), reals(point.at_y, problem.n))
     m.linear.matrices.jacobian_fresh = 0
     kept = problem.n_accelerated > 0 or off_place(problem, point) or (problem.n_balanced > 0 and run.crossed == 1)
-    better = kept or (located and run.crossed == 1 and asks_for_forces(problem, guards))
+    better = kept or (by_equations and run.crossed == 1 and asks_for_forces(problem, guards))
     if better:
         if (keep_positions(problem, point, linear) if kept else correct_forces(problem, point, linear)) == INACCURATE:
             return REPLAN
@@ -103,11 +109,11 @@ def arrive(m, located):
         at_limit = as_shown(m, point.at_y if problem.n_moves > 0 else point.at_y_piece, True)
         write_row(problem, recorder, point.t, at_limit, BEFORE)
         remember(problem, point, m.events.loads)
-        if at_event:  # what is sampled at this instant is from before it
+        if time_event_now:  # what is sampled at this instant is from before it
             take_time_event(problem, run, point, events)
         begin_settling(problem, run, point, events)
         run.phase = SETTLE
-    elif at_event:
+    elif time_event_now:
         write_row(problem, recorder, point.t, as_shown(m, point.at_y, True), BEFORE)
         if take_time_event(problem, run, point, events):
             guards.n_fired = 0
@@ -250,9 +256,9 @@ def take_time_event(problem, run, point, events):
         find_next_time(problem, run, point)
     if point.t >= run.t_release:
         changed = True
-        blocked = reals(events.guards.at_blocked_until, problem.n_zones)
+        blocked = reals(events.guards.at_blocked_until, problem.n_machines)
         run.t_release = 1e308
-        for z in range(problem.n_zones):
+        for z in range(problem.n_machines):
             if blocked[z] > point.t:
                 run.t_release = min(run.t_release, blocked[z])
     return changed
@@ -284,8 +290,8 @@ def settle_here(m):
         return not_finite_here(problem, run, point, SINGULAR_MATRIX)
     if status == NOT_CONSISTENT:
         return not_finite_here(problem, run, point, INCONSISTENT)
-    if status == NOT_SETTLED:
-        return UNSETTLED
+    if status == TOO_MANY_PASSES:
+        return NOT_SETTLED
     if status == RUBBED:
         return REBOUND_RUBS
     if status == APART:

@@ -71,7 +71,7 @@ def watch_progress(problem, run, point, events):
     settling.t_last_switch = point.t
     if settling.stalls >= STALL_LIMIT:
         fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
-        chatters = indices(settling.at_chatters, settling.n_zones)
+        chatters = indices(settling.at_chatters, settling.n_machines)
         for k in range(guards.n_fired):
             z = machine[fired[k]]
             if z >= 0:
@@ -83,12 +83,12 @@ def watch_progress(problem, run, point, events):
 def watch_chatter(m, z):
     """Count toggles of machine z that follow each other within a dwell; react when they become a streak."""
     run, point, settling = m.run, m.point, m.events.settling
-    last, streak = reals(settling.at_last_toggle, settling.n_zones), indices(settling.at_streak, settling.n_zones)
+    last, streak = reals(settling.at_last_toggle, settling.n_machines), indices(settling.at_streak, settling.n_machines)
     if point.t > last[z]:
         streak[z] = streak[z] + 1 if point.t - last[z] < dwell_here(run, point) else 0
         last[z] = point.t
         if streak[z] >= CHATTER_STREAK and not bounces(m.problem, z):
-            indices(settling.at_chatters, settling.n_zones)[z] += 1
+            indices(settling.at_chatters, settling.n_machines)[z] += 1
             if run.on_chatter == HOLD:
                 block(m.problem, run, point, m.events, z)
             elif run.on_chatter == STOP:
@@ -111,8 +111,8 @@ def bounces(problem, z):
 @compiled
 def block(problem, run, point, events, z):
     """Hold machine z in its zone for one dwell; where one was just over twice as long as before, up to MOST_HELD."""
-    until = reals(events.guards.at_blocked_until, problem.n_zones)
-    held = reals(events.settling.at_held_for, problem.n_zones)
+    until = reals(events.guards.at_blocked_until, problem.n_machines)
+    held = reals(events.settling.at_held_for, problem.n_machines)
     dwell = dwell_here(run, point)
     if point.t - until[z] <= AGAIN * held[z]:
         dwell = min(max(dwell, 2.0 * held[z]), MOST_HELD * dwell, run.dwell)

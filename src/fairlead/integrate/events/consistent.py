@@ -15,21 +15,15 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.codes import DONE, NOT_CONSISTENT, SINGULAR
 from fairlead.integrate.events.balance import ROUNDS, close_balance
 from fairlead.integrate.events.impulse import NO_IMPACT, find_change_of_speed, resolve_impact
 from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
-from fairlead.integrate.linear.systems import (
-    DONE,
-    SINGULAR,
-    factorise_consistent,
-    solve,
-    solve_watched,
-)
+from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
-NOT_CONSISTENT = 3
 OF_POSITIONS = 3
 """What a row takes that keeps a relation of positions: any impulse, see `Facts.takes_impulse`."""
 SLIP_LEFT = 1e-6
@@ -70,10 +64,10 @@ def project(problem, point, linear):
     taken_away = reals(point.at_b, n)
     taken_away[:] = 0.0
     slip_at(problem.call_slip, (problem.context, point.t, point.at_y, point.at_b))
-    at_rest = True
+    all_rest = True
     for k in range(n):
-        at_rest = at_rest and taken_away[k] == 0.0
-    if at_rest:
+        all_rest = all_rest and taken_away[k] == 0.0
+    if all_rest:
         return
     if problem.n_accelerated > 0:
         copy(taken_away, reals(point.at_v, n))

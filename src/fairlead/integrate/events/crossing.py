@@ -22,7 +22,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
 NONE, CROSSING, COMPANION = 0, 1, 2
 ALWAYS = 2.0
-"""Theta, beyond the step, up to which a guard counts as below zero that does so in the whole of it."""
+"""A place s, beyond the end of the step, up to which a guard counts as below zero that does so in the whole of it."""
 
 
 @compiled

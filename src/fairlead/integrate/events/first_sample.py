@@ -26,17 +26,17 @@ def settle_for_sample(problem, run, point, events):
     before = point.t - JUST_BEFORE * max(abs(point.t), run.stop - run.start)
     at_time_at(problem.call_at_time, (problem.context, before, point.at_y))
     copy(reals(point.at_y, problem.n), reals(point.at_begun, problem.n))
-    copy(indices(problem.at_zones, problem.n_zones), indices(settling.at_zones_given, problem.n_zones))
+    copy(indices(problem.at_zones, problem.n_machines), indices(settling.at_zones_given, problem.n_machines))
     run.first_sample = SETTLING_FOR_IT
 
 
 @compiled
 def take_first_sample(problem, run, point, events):
     """Sample at the settled point, then begin from the values given."""
-    zones = indices(problem.at_zones, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
     at_time_at(problem.call_at_time, (problem.context, point.t, point.at_y))
     copy(reals(point.at_begun, problem.n), reals(point.at_y, problem.n))
-    copy(indices(events.settling.at_zones_given, problem.n_zones), zones)
+    copy(indices(events.settling.at_zones_given, problem.n_machines), zones)
     at_time_at(problem.call_at_time, (problem.context, point.t, point.at_y))
     slope, lost = reals(point.at_slope, problem.n), reals(point.at_lost, problem.n)
     not_given_back = reals(point.at_not_given_back, problem.n)

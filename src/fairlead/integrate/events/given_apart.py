@@ -17,8 +17,6 @@ from __future__ import annotations
 from fairlead.integrate.events.impulse_load import UNLIMITED
 from fairlead.integrate.memory.foreign import compiled, indices, reals, slip_at
 
-APART = 8
-"""Of a settlement: given motions hold a body to two speeds, and nothing between them can open."""
 LEAST_APART = 2.0
 """Slip in error weights from which on rows contradict each other; less is the error of a step."""
 MOST_APART = 4.0

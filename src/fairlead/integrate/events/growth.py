@@ -41,8 +41,8 @@ def watch_growth(m):
     probe, inertia = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_inertia, guards.n_guards)
     undecided = False
     for i in range(guards.n_guards):
-        at_limit = inertia[i] > 0.0 and abs(g[i]) <= tolerance[i]
-        undecided = undecided or (at_limit and abs(probe[i] - g[i]) <= RISE * tolerance[i])
+        on_limit = inertia[i] > 0.0 and abs(g[i]) <= tolerance[i]
+        undecided = undecided or (on_limit and abs(probe[i] - g[i]) <= RISE * tolerance[i])
     if not undecided:
         return
     third_derivative = reals(point.at_b, point.n)
@@ -55,8 +55,8 @@ def watch_growth(m):
     find_guard_rates(problem, run, point, guards, point.at_b, guards.at_g_late)
     copy(probe, far)
     for i in range(guards.n_guards):
-        at_limit = inertia[i] > 0.0 and abs(g[i]) <= tolerance[i]
-        if at_limit and abs(far[i] - g[i]) <= RISE * tolerance[i] and early[i] < 0.0 and late[i] < 0.0:
+        on_limit = inertia[i] > 0.0 and abs(g[i]) <= tolerance[i]
+        if on_limit and abs(far[i] - g[i]) <= RISE * tolerance[i] and early[i] < 0.0 and late[i] < 0.0:
             run.growth = max(run.growth, late[i] / early[i])
     if run.growth > 0.0:
         run.t_growth = point.t + LONG_ENOUGH / run.growth

@@ -18,7 +18,7 @@ def evaluate_guards(problem, run, guards, t, at_y, at_g):
     problem.guards += 1
     if run.t_release < 1e300:
         g, machine = reals(at_g, problem.n_guards), indices(problem.at_guard_machine, problem.n_guards)
-        blocked = reals(guards.at_blocked_until, problem.n_zones)
+        blocked = reals(guards.at_blocked_until, problem.n_machines)
         for i in range(problem.n_guards):
             if machine[i] >= 0 and blocked[machine[i]] > t:
                 g[i] = OUT_OF_FORCE

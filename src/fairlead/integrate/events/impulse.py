@@ -39,7 +39,8 @@ from __future__ import annotations
 
 from math import isfinite, sqrt
 
-from fairlead.integrate.events.given_apart import APART, LEAST_APART, slip_of_given
+from fairlead.integrate.codes import APART, DONE, NOT_CONSISTENT, RELEASED, RUBBED
+from fairlead.integrate.events.given_apart import LEAST_APART, slip_of_given
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse_changes import (
     any_support_moves,
@@ -58,13 +59,10 @@ from fairlead.integrate.events.impulse_load import (
 )
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound
-from fairlead.integrate.linear.systems import DONE, factorise_consistent, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh
 
-RELEASED, RUBBED = 6, 7
-CONTRADICTS = 3
-"""No impulse is that under which the laws have the slopes it follows from: as where no values are consistent."""
 NO_IMPACT = 1.0
 """Change of speed, in error weights, below which a slip is no impact."""
 SOLVES, SAME = 12, 1e-9
@@ -181,7 +179,7 @@ def solve_under_load(m):
             settled = True
             break
     find_change_of_speed(problem, point)
-    return DONE if settled else CONTRADICTS
+    return DONE if settled else NOT_CONSISTENT
 
 
 @compiled
@@ -242,7 +240,7 @@ def follow_slopes(m, parts):
                 slip_to_stop(problem, point)
                 status = solve_to_rounding(problem, point, linear)
             else:
-                status = CONTRADICTS
+                status = NOT_CONSISTENT
         for k in range(n):
             whole[k] += b[k] / left
             if struck[k] == 1:

@@ -26,14 +26,14 @@ def number_machines(events, at_g):
     """Set `rank` of every machine from these guards, in units of their tolerances; the root lets all of them count."""
     guards, settling = events.guards, events.settling
     g, tolerance = reals(at_g, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    rank, machine = reals(settling.at_rank, settling.n_zones), indices(guards.at_guard_machine, guards.n_guards)
-    for z in range(settling.n_zones):
+    rank, machine = reals(settling.at_rank, settling.n_machines), indices(guards.at_guard_machine, guards.n_guards)
+    for z in range(settling.n_machines):
         rank[z] = 0.0
     for i in range(guards.n_guards):
         far = g[i] / tolerance[i]
         if machine[i] >= 0 and abs(far) > AT_LIMIT:
             rank[machine[i]] += sqrt(far) if far > 0.0 else -sqrt(-far)
-    for z in range(settling.n_zones):
+    for z in range(settling.n_machines):
         rank[z] = rounded(rank[z], FINE)
 
 
@@ -42,7 +42,7 @@ def keep_first(events):
     """Of the violators in `fired` keep the one whose machine comes first; guards without a machine come last."""
     guards, settling = events.guards, events.settling
     fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
-    rank = reals(settling.at_rank, settling.n_zones)
+    rank = reals(settling.at_rank, settling.n_machines)
     first, lowest = fired[0], 1e308
     for k in range(guards.n_fired):
         z = machine[fired[k]]

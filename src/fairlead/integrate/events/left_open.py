@@ -17,9 +17,9 @@ run ends and names what is open.
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import SINGULAR
 from fairlead.integrate.events.consistent import prepare_consistent
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.linear.systems import SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices, mass_at, reals, switch_at
 
 NOT_IN_FORCE = -1.0
@@ -29,7 +29,7 @@ NOT_IN_FORCE = -1.0
 @compiled
 def change_to_near_pattern(m):
     """Put a pattern in force near the one that leaves an unknown open; False, and the same as before, without one."""
-    nz, settling = m.problem.n_zones, m.events.settling
+    nz, settling = m.problem.n_machines, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     changed = 0
     for z in range(nz):
@@ -65,7 +65,7 @@ def determines(m):
 @compiled
 def change_one(m):
     """Of several that changed only one does; False, and all of them, where no one determines all."""
-    nz, settling = m.problem.n_zones, m.events.settling
+    nz, settling = m.problem.n_machines, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     wanted = indices(settling.at_zones_history + 8 * settling.passes * nz, nz)
     for kept in range(nz):
@@ -84,7 +84,7 @@ def change_one(m):
 @compiled
 def exchange_one(m):
     """One that changed before goes back to the zone it began in, and the last one stays; False without one."""
-    nz, settling = m.problem.n_zones, m.events.settling
+    nz, settling = m.problem.n_machines, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     first = indices(settling.at_zones_history, nz)
     for z in range(nz):
@@ -104,7 +104,7 @@ def exchange_one(m):
 def open_one(m):
     """Another that holds lets go, by the guard nearest to its limit of those that determine all; False without one."""
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
-    nz, ng = problem.n_zones, guards.n_guards
+    nz, ng = problem.n_machines, guards.n_guards
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     machine, may_let_go = indices(guards.at_guard_machine, ng), indices(problem.at_may_hold, ng)
     g, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)

@@ -9,13 +9,12 @@ Those above zero change their zones. What is wrong by forces then shows as soon 
 
 from __future__ import annotations
 
-from fairlead.integrate.events.consistent import NOT_CONSISTENT
+from fairlead.integrate.codes import NOT_CONSISTENT, RELEASED
 from fairlead.integrate.events.guards import evaluate_guards, latches_wait
-from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.right_root import find_consistent
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
-MOST = 8
+MOST_WITHOUT_ANSWER = 8
 """Passes of a settlement in which zones may change without an answer. A contact that creeps takes two to its slide."""
 
 
@@ -33,7 +32,7 @@ def find_answer(m, iterations):
 def fire_without_answer(m):
     """Go back to the point as it was kept and fire guards above zero there; False where there is none, or too often."""
     problem, point, guards, settling = m.problem, m.point, m.events.guards, m.events.settling
-    if settling.without_answer >= MOST or guards.n_guards == 0:
+    if settling.without_answer >= MOST_WITHOUT_ANSWER or guards.n_guards == 0:
         return False
     n, ng = point.n, guards.n_guards
     copy(reals(point.at_y_unsettled, n), reals(point.at_y, n))

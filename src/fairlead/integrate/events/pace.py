@@ -9,7 +9,7 @@ from fairlead.integrate.events.growth import shorten_for_growth
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, reals
 from fairlead.integrate.point.controller import step_after_acceptance
 from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.point.meters import meter_piece
+from fairlead.integrate.point.quadratures import integrate_quadratures
 
 DOUBT = 0.1
 """How much shorter a step is tried when a guard that falls by the slopes at the point, where the zones were just
@@ -105,12 +105,12 @@ def accept(m, h, crossed):
         else:
             run.landing = 0
         interpolate(point, run.cut_at, point.at_y_piece)
-        if recorder.meters_off == 1:
-            meter_piece(m, h)
+        if recorder.quadratures_off == 1:
+            integrate_quadratures(m, h)
     else:
         run.t_piece = run.t_land if run.landing == 1 else point.t + h
         copy(reals(point.at_y_end, point.n), reals(point.at_y_piece, point.n))
-        if recorder.meters_off == 1:
+        if recorder.quadratures_off == 1:
             run.cut_at = 1.0
-            meter_piece(m, h)
+            integrate_quadratures(m, h)
     run.phase = RECORD

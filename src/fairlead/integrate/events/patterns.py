@@ -13,8 +13,8 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 @compiled
 def number_of_zones(settling):
     """A number that stands for the zones in force."""
-    zones, number = indices(settling.at_zones, settling.n_zones), 0
-    for z in range(settling.n_zones):
+    zones, number = indices(settling.at_zones, settling.n_machines), 0
+    for z in range(settling.n_machines):
         number = (number * 1099511628211 + zones[z] + 1) & 0xFFFFFFFFFFFFF
     return float(number)
 
@@ -28,7 +28,7 @@ def remember_pattern(run, settling):
 @compiled
 def keep(run, settling, number):
     """Keep the zones in force, and the number that stands for them."""
-    nz = settling.n_zones
+    nz = settling.n_machines
     if settling.passes <= run.max_passes:
         reals(settling.at_patterns_met, run.max_passes + 1)[settling.passes] = number
         copy(indices(settling.at_zones, nz), indices(settling.at_zones_history + 8 * settling.passes * nz, nz))

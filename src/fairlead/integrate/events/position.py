@@ -15,13 +15,14 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.linear.systems import DONE, solve, solve_watched
+from fairlead.integrate.codes import DONE
+from fairlead.integrate.linear.systems import solve, solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
-MOST_MOVES = 4
+MOST_CORRECTIONS = 4
 """Moves at most; two do, and after four what is left is what the positions are known to."""
-LAST_MOVE = 1e-6
+LAST_CORRECTION = 1e-6
 """A move below this, in error weights, is the last."""
 
 
@@ -85,7 +86,7 @@ def project_positions(problem, point, linear):
     speed = indices(problem.at_move_speed, problem.n_moves)
     weigh(point, point.at_y)
     moved_in_all[:] = 0.0
-    for move in range(MOST_MOVES):
+    for move in range(MOST_CORRECTIONS):
         field_at(problem.call_gap, (problem.context, point.t, point.at_y, point.at_v))
         copy(way, change)
         if problem.n_light > 0:
@@ -105,7 +106,7 @@ def project_positions(problem, point, linear):
         for k in range(problem.n_moves):
             y[position[k]] += way[position[k]]
             moved_in_all[position[k]] += way[position[k]]
-        if size <= LAST_MOVE:
+        if size <= LAST_CORRECTION:
             break
     point.moved = weighted_norm(point, point.at_u)
     return DONE

@@ -32,7 +32,7 @@ At the start of a run nothing was before: forces that hold are built up from zer
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import LEVELS
+from fairlead.integrate.codes import DONE, LEVELS
 from fairlead.integrate.events.consistent import find_residual, prepare_consistent
 from fairlead.integrate.events.fast_way import (
     NOT_REACHED,
@@ -47,7 +47,7 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.patterns import remember_pattern
 from fairlead.integrate.events.violators import RISE
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import DONE, solve_watched
+from fairlead.integrate.linear.systems import solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
 from fairlead.integrate.point.controller import weigh
 
@@ -59,14 +59,14 @@ def order_matters(problem, events):
     if problem.falling == 0 or events.loads.ordered == 1:
         return False
     fired, machine = indices(guards.at_fired, problem.n_guards), indices(problem.at_guard_machine, problem.n_guards)
-    falls, may_hold = indices(problem.at_falls, problem.n_zones), indices(problem.at_may_hold, problem.n_guards)
+    falls, may_hold = indices(problem.at_falls, problem.n_machines), indices(problem.at_may_hold, problem.n_guards)
     for k in range(guards.n_fired):
         if may_hold[fired[k]] > 0 and falls[machine[fired[k]]] == 1:
             return True
-    zones = indices(problem.at_zones, problem.n_zones)
-    first = indices(events.settling.at_zones_history, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
+    first = indices(events.settling.at_zones_history, problem.n_machines)
     fell = False
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         fell = fell or (falls[z] == 1 and zones[z] != first[z])
     return fell
 
@@ -76,7 +76,7 @@ def remember(problem, point, loads):
     """Keep the point just before a jump: unknowns, zones, and the load f."""
     if problem.falling == 1:
         copy(reals(point.at_y, problem.n), reals(loads.at_y_before, problem.n))
-        copy(indices(problem.at_zones, problem.n_zones), indices(loads.at_zones_just_before, problem.n_zones))
+        copy(indices(problem.at_zones, problem.n_machines), indices(loads.at_zones_just_before, problem.n_machines))
         field_at(problem.call_rhs, (problem.context, point.t, point.at_y, loads.at_f_before))
         problem.rhs += 1
 
@@ -88,7 +88,7 @@ def add_ties(problem, run, point, events):
     ng = problem.n_guards
     fired, machine = indices(guards.at_fired, ng), indices(problem.at_guard_machine, ng)
     may_hold = indices(problem.at_may_hold, ng)
-    falls, here = indices(problem.at_falls, problem.n_zones), reals(settling.at_wrong, ng)
+    falls, here = indices(problem.at_falls, problem.n_machines), reals(settling.at_wrong, ng)
     tolerance = reals(guards.at_guard_tolerance, ng)
     g, g_end, asked = reals(guards.at_g, ng), reals(guards.at_g_end, ng), False
     for k in range(guards.n_fired):
@@ -123,7 +123,7 @@ def begin_release(problem, point, linear, events):
     born, slips = indices(loads.at_born, guards.n_guards), reals(loads.at_fast_slip, guards.n_guards)
     for i in range(guards.n_guards):
         born[i], slips[i] = 0, 0.0
-    copy(indices(settling.at_zones, settling.n_zones), indices(settling.at_zones_before, settling.n_zones))
+    copy(indices(settling.at_zones, settling.n_machines), indices(settling.at_zones_before, settling.n_machines))
     loads.levels = 0
     loads.level_due = 1
     loads.ordered = 1
@@ -151,13 +151,14 @@ def accelerations_before(problem, point, linear, events):
     """
     matrices, loads = linear.matrices, events.loads
     n = problem.n
-    zones, now = indices(problem.at_zones, problem.n_zones), indices(events.settling.at_zones_before, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
+    now = indices(events.settling.at_zones_before, problem.n_machines)
     y, after, before = reals(point.at_y, n), reals(point.at_y_probe, n), reals(loads.at_y_before, n)
     slope, differential = reals(point.at_slope, n), indices(problem.at_differential, n)
     minus_rate = reals(point.at_v, n)
     copy(zones, now)
     copy(y, after)
-    copy(indices(loads.at_zones_just_before, problem.n_zones), zones)
+    copy(indices(loads.at_zones_just_before, problem.n_machines), zones)
     copy(before, y)
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
     status = prepare_consistent(problem, point, linear)
@@ -223,8 +224,8 @@ def open_level(problem, point, matrices, events):
     """What the laws now in force jump by, beside what is out already, is a load of its own."""
     loads = events.loads
     n = problem.n
-    zones = indices(problem.at_zones, problem.n_zones)
-    before = indices(events.settling.at_zones_before, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
+    before = indices(events.settling.at_zones_before, problem.n_machines)
     holder, born = indices(problem.at_holder, n), indices(loads.at_born, problem.n_guards)
     machine = indices(problem.at_guard_machine, problem.n_guards)
     slips = reals(loads.at_fast_slip, problem.n_guards)

@@ -27,21 +27,15 @@ off-diagonal elements and positive principal minors, Czechoslovak Mathematical J
 
 from __future__ import annotations
 
-from fairlead.integrate.events.consistent import (
-    NOT_CONSISTENT,
-    give_back,
-    keep,
-    make_consistent,
-    newton,
-    prepare_consistent,
-)
-from fairlead.integrate.linear.systems import DONE, INACCURATE, solve
+from fairlead.integrate.codes import DONE, INACCURATE, NOT_CONSISTENT
+from fairlead.integrate.events.consistent import give_back, keep, make_consistent, newton, prepare_consistent
+from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-MOST = 6
+MOST_COMBINED = 6
 """Parts of which all subsets are asked, and all signs tried. Of more, single ones, all but one, and the first k are
 asked, and the signs of those are turned that are wrong."""
-ROUNDING = 1e-12
+ANSWER_ROUNDING = 1e-12
 """Share of an answer below which what is left of it is rounding."""
 
 
@@ -61,7 +55,7 @@ def try_signs(m, iterations, first):
     """Begin Newton from forces of other signs until rigid parts can have its answer; else the first one, as it was."""
     point, count = m.point, m.problem.n_pressing
     keep(point)
-    few = count <= MOST
+    few = count <= MOST_COMBINED
     for trial in range(1, 1 << count if few else count + 1):
         if few:
             give_back(point)
@@ -112,7 +106,7 @@ def are_rigid(m):
     count = m.problem.n_pressing
     wrong = indices(m.problem.at_pressing_wrong, count)
     wrong[:] = 0
-    if count > MOST:
+    if count > MOST_COMBINED:
         return are_rigid_in_turn(m)
     bits, rigid = 1, True
     while rigid and bits < 1 << count:
@@ -170,7 +164,7 @@ def eliminate(m, k):
     answer = reals(m.problem.at_pressing_answer, count * count)
     left = reals(m.problem.at_pressing_left, count * count)
     pivot = left[k * count + k]
-    if not abs(pivot) > ROUNDING * abs(answer[k * count + k]):
+    if not abs(pivot) > ANSWER_ROUNDING * abs(answer[k * count + k]):
         return 0.0
     for i in range(count):
         factor = left[i * count + k] / pivot

@@ -17,10 +17,9 @@ all that must break, as many as the least index).
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import SETTLING_FOR_IT
+from fairlead.integrate.codes import DONE, NO_ROOM, RELEASED, SETTLING_FOR_IT, SINGULAR, TOO_MANY_PASSES
 from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
 from fairlead.integrate.events.chatter import watch_chatter, watch_progress
-from fairlead.integrate.events.impulse import RELEASED
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.no_answer import find_answer
@@ -28,11 +27,9 @@ from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.events.release import add_ties, begin_release, order_matters, release
 from fairlead.integrate.events.torn_loose import tear_first
 from fairlead.integrate.events.violators import fire_violators, look_ahead, looked_ahead
-from fairlead.integrate.linear.systems import DONE, SINGULAR
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 from fairlead.integrate.record.rows import there_is_room, write_event
 
-NOT_SETTLED, NO_ROOM = 4, 5
 NEARER, LOOKS = 0.1, 3
 """How much less far guards are looked ahead for when single switches go in a circle, and how often. Nearer still no
 guard would be seen to rise, and laws that contradict each other would pass for settled."""
@@ -54,7 +51,7 @@ def settle(m, iterations):
     while moves <= MOST_JUMPS:
         if guards.n_fired > 0:
             if settling.passes >= run.max_passes:
-                return NOT_SETTLED
+                return TOO_MANY_PASSES
             if not there_is_room(problem, m.recorder):
                 return NO_ROOM
             if problem.falling == 1 and settling.passes == 0:
@@ -113,7 +110,7 @@ def begin_settling(problem, run, point, events):
     settling, loads = events.settling, events.loads
     settling.passes = 0
     loads.levels, loads.level_due, loads.ordered = 0, 0, 0
-    settling.one_by_one, settling.without_answer = 0, 0
+    settling.without_answer = 0
     settling.stage, settling.stage_from, settling.fewest, settling.waited = ALL, 0, settling.n_guards + 1, 0
     settling.look = 0.0
     settling.nearness = 1.0
@@ -125,7 +122,7 @@ def begin_settling(problem, run, point, events):
 def change_zones(m):
     """Switch on the guards in `fired`, log what changed, see whether the pattern of zones recurs."""
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
-    nz = problem.n_zones
+    nz = problem.n_machines
     zones, before = indices(problem.at_zones, nz), indices(settling.at_zones_before, nz)
     copy(zones, before)
     switch_at(problem.call_switch, (problem.context, point.t, point.at_y, guards.at_fired, guards.n_fired))
@@ -236,7 +233,7 @@ def log_changes(m):
     run, point, guards, settling, recorder = m.run, m.point, m.events.guards, m.events.settling, m.recorder
     if run.first_sample == SETTLING_FOR_IT:
         return
-    nz, ng = settling.n_zones, guards.n_guards
+    nz, ng = settling.n_machines, guards.n_guards
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     machine, fired = indices(guards.at_guard_machine, ng), indices(guards.at_fired, ng)
     by_machine, rim = indices(settling.at_switches_by_machine, nz), indices(settling.at_rim, nz)

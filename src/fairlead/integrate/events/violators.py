@@ -39,8 +39,8 @@ def fire_violators(problem, run, point, events):
     for i in met:
         if tolerance[i] < g[i] <= known_to:
             g[i] = 0.0  # a time is no better known than that, so the stop is not passed
-    at_limit = looked_ahead(guards) and not event_is_due(run, point)
-    if at_limit:
+    looks_ahead = looked_ahead(guards) and not event_is_due(run, point)
+    if looks_ahead:
         look_ahead(problem, run, point, events)
         for i in met:
             if abs(probe[i] - g[i]) <= known_to:
@@ -48,7 +48,7 @@ def fire_violators(problem, run, point, events):
     fired, wrong = indices(guards.at_fired, ng), reals(settling.at_wrong, ng)
     inertia = reals(guards.at_guard_inertia, ng)
     for i in range(ng):
-        close = at_limit and -AT_LIMIT * tolerance[i] <= g[i] <= tolerance[i]
+        close = looks_ahead and -AT_LIMIT * tolerance[i] <= g[i] <= tolerance[i]
         rises = close and probe[i] >= 0.0 and probe[i] - g[i] > RISE * tolerance[i]
         if g[i] > tolerance[i] or rises:
             wrong[i] = g[i] if g[i] > tolerance[i] else probe[i] - g[i]

@@ -26,6 +26,7 @@ from typing import Any
 import numpy as np
 
 from fairlead.errors import UsageError
+from fairlead.integrate.codes import DONE, SINGULAR
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Floats, Integers, Status
 
@@ -35,8 +36,6 @@ CLOSEST = 4 * float(np.finfo(float).eps)
 """IDA refuses a way below 2 eps (|t| + |stop|), its IDA_TOO_CLOSE: two samples that rounding alone parts."""
 WARNINGS = "SUNLOGGER_WARNING_FILENAME"
 """Where the logger of SUNDIALS writes warnings; empty for nowhere."""
-FACTORISED, SINGULAR = 0, 1
-"""What `prepare` returns, as in linear.py; anything else asks for other pivots."""
 
 
 class Refused(Exception):
@@ -123,7 +122,7 @@ class Solver:
 
     def _prepare(self, t: float, y: Floats, rate: Floats, r: Floats, cj: float) -> None:
         status = self.kernels["prepare"](self.address, t, y.ctypes.data, cj)
-        if status != FACTORISED:
+        if status != DONE:  # what is not SINGULAR asks for other pivots
             raise Refused(Status.SINGULAR if status == SINGULAR else Status.REPLAN)
 
     def _solve(self, t: float, y: Floats, rate: Floats, r: Floats, b: Floats, x: Floats, cj: float,

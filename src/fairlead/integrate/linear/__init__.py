@@ -2,6 +2,7 @@
 
 Given `linear`: J and M (`matrices`), the plan of elimination (`core`, `factors`), which ordering.py and condensing.py
       make once for a problem, from its patterns alone.
-Does  factorise_step, factorise_consistent, solve, solve_watched (systems.py); products with J and M (products.py).
+Does  factorise_step, factorise_consistent, solve, solve_motion, solve_watched (systems.py); products with J and M
+(products.py).
 Says  DONE, SINGULAR with the unknown to blame in `culprit`, or INACCURATE: other pivots are needed (replan.py).
 """

@@ -6,6 +6,7 @@ anew: a contact that switches changes a few. The factors of the others are what 
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear.condensing import FROM_JACOBIAN, FROM_MASS
 from fairlead.integrate.linear.perturbed_pivots import factorise_columns, substitute
 from fairlead.integrate.linear.sparse import backward_error, mark_users, scale_rows
@@ -17,7 +18,7 @@ REFILL = 0.3
 
 @compiled
 def factorise_core(linear, scale, consistent):
-    """Factorise s M - J, or the matrix of the consistent point; 0 done, 2 a pivot is not to be trusted."""
+    """Factorise s M - J, or the matrix of the consistent point; DONE, or INACCURATE: a pivot is not to be trusted."""
     matrices, core, factors = linear.matrices, linear.core, linear.factors
     n = core.n_core
     kind = 1 if consistent else 0
@@ -42,7 +43,7 @@ def factorise_core(linear, scale, consistent):
     else:
         mark_users(factors, changed)
     status = factorise_columns(factors)
-    core.core_valid = 1 if status == 0 else 0
+    core.core_valid = 1 if status == DONE else 0
     return status
 
 
@@ -87,7 +88,7 @@ def factorise_marked(linear, count):
         assemble_column(linear, waiting[e])
     mark_users(factors, count)
     status = factorise_columns(factors)
-    core.core_valid = 1 if status == 0 else 0
+    core.core_valid = 1 if status == DONE else 0
     return status
 
 
@@ -135,13 +136,16 @@ def assemble_column(linear, k):
 
 
 @compiled
-def solve_core(linear, at_b, refine_above):
-    """Overwrite the n doubles at `at_b` with the solution; its backward error if `refine_above` is not 0, else 0."""
+def solve_core(linear, at_b, quadratures, refine_above):
+    """Overwrite the n doubles at `at_b` with the solution; its backward error if `refine_above` is not 0, else 0.
+
+    Where `quadratures` are not asked for, what stands in their rows is of no use.
+    """
     core, factors = linear.core, linear.factors
     n = core.n_core
     b, x, right = reals(at_b, core.n), reals(core.at_core_x, n), reals(core.at_core_b, n)
     row_order, column_order = indices(core.at_row_order, n), indices(factors.at_column_order, n)
-    pass_positions_on(linear, at_b)
+    pass_positions_on(linear, at_b, quadratures)
     for k in range(n):
         x[k] = b[row_order[k]]
     if refine_above > 0.0:
@@ -158,13 +162,13 @@ def solve_core(linear, at_b, refine_above):
             error = backward_error(linear)
     for k in range(n):
         b[column_order[k]] = x[k]
-    follow_core(linear, at_b)
+    follow_core(linear, at_b, quadratures)
     return error
 
 
 @compiled
-def pass_positions_on(linear, at_b):
-    """Add to b what the right sides of the positions do to other rows; quadratures have no use for it."""
+def pass_positions_on(linear, at_b, quadratures):
+    """Add to b what the right sides of the positions do to other rows; `quadratures` that are asked for are spared."""
     matrices, core = linear.matrices, linear.core
     if core.core_kind == 1:
         return
@@ -179,18 +183,18 @@ def pass_positions_on(linear, at_b):
         shift = b[x] * part[k]
         if shift == 0.0:
             continue
-        if core.skip_meters == 1:
-            for p in range(starts[x], starts[x + 1]):
-                b[rows[p]] += jacobian[p] * shift
-        else:
+        if quadratures:
             for p in range(starts[x], starts[x + 1]):
                 if quadrature[rows[p]] == 0:
                     b[rows[p]] += jacobian[p] * shift
+        else:
+            for p in range(starts[x], starts[x + 1]):
+                b[rows[p]] += jacobian[p] * shift
 
 
 @compiled
-def follow_core(linear, at_b):
-    """Positions and quadratures from the solution of the core."""
+def follow_core(linear, at_b, quadratures):
+    """Positions from the solution of the core, and `quadratures` if they are asked for."""
     matrices, core = linear.matrices, linear.core
     b = reals(at_b, matrices.n)
     position, speed = indices(core.at_position, core.n_positions), indices(core.at_position_speed, core.n_positions)
@@ -198,7 +202,7 @@ def follow_core(linear, at_b):
     for k in range(core.n_positions):
         x, v = position[k], speed[k]
         b[x] = part[k] * b[x] + (ratio[k] * b[v] if v >= 0 else 0.0)
-    if core.skip_meters == 1:
+    if not quadratures:
         return
     jacobian = reals(core.at_jacobian_used, matrices.n_jacobian)
     differential = indices(matrices.at_differential, matrices.n)

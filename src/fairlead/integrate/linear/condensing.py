@@ -4,8 +4,8 @@
     positions, x' = c v    m_x dx s - c dv = b_x gives dx from dv; the column of x moves into that of v:
                            W_vv = s M_vv - J_vv - J_vx c/(s m_x)
 
-with s the factor of M: 1/(h gamma) in a step, 1 at a consistent point. The core is planned once per run
-(pivot order and patterns: ordering.py), laid out by columns in pivot order, every column with the list of
+with s the factor of M: 1/(h gamma) in a step, 1 at a consistent point. The core is planned once for a
+problem (pivot order and patterns: ordering.py), laid out by columns in pivot order, every column with the list of
 the entries of J and M that go into it, so that a column can be assembled alone.
 """
 
@@ -83,7 +83,7 @@ def core_entries(problem: Problem, layout: Layout) -> Entries:
 
 
 def arrays_of(problem: Problem, layout: Layout) -> dict[str, Integers]:
-    """How positions and quadratures follow from the core, by the names in memory/arena.py."""
+    """How positions and quadratures follow from the core, by the names in memory/of_linear.py."""
     rows, columns = problem.pattern.rows, columns_of(problem.pattern)
     diagonal = _on_diagonal(problem.mass_pattern)
     place = {(i, j): p for p, (i, j) in enumerate(zip(rows.tolist(), columns.tolist(), strict=True))}

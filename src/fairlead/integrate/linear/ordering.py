@@ -1,4 +1,4 @@
-"""Where the entries of W live, and in which order its unknowns are eliminated: planned once per run.
+"""Where the entries of W live, and in which order its unknowns are eliminated: planned once for a problem.
 
 Positions and quadratures are condensed out first (condensing.py). The rest, the core, goes by minimum
 degree on A + A', many independent unknowns a round, an algebraic unknown only after the differential
@@ -53,11 +53,11 @@ class Plan:
     size: int
     """Length of `matrix`."""
     arrays: dict[str, Integers] = field(default_factory=dict)
-    """Arrays of the plan by their name in memory/arena.py."""
+    """Arrays of the plan by their name in memory/of_linear.py."""
 
     @property
     def lengths(self) -> dict[str, int]:
-        """Sizes of the core and of what hangs on it, by their name in memory/arena.py; all zero when dense."""
+        """Sizes of the core and of what hangs on it, by their name in memory/of_linear.py; all zero when dense."""
         lengths = {"core": "row_order", "positions": "position", "meters": "meter", "meter_entries": "meter_entry",
                    "entries": "entry_source"}  # fmt: skip
         return {f"n_{name}": len(self.arrays.get(array, ())) for name, array in lengths.items()}

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.codes import DONE, INACCURATE
 from fairlead.integrate.linear.sparse import factorise_planned, substitute_planned
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
@@ -25,9 +26,9 @@ SINGULAR_BELOW = 1e-13
 
 @compiled
 def factorise_columns(factors):
-    """Refactorise the columns marked `dirty`; 0 done, 2 a pivot is not to be trusted."""
+    """Refactorise the columns marked `dirty`; DONE, or INACCURATE: a pivot is not to be trusted."""
     status = factorise_planned(factors)
-    if status == 0 and factors.n_perturbed > 0:
+    if status == DONE and factors.n_perturbed > 0:
         status = prepare_correction(factors)
     return status
 
@@ -42,7 +43,7 @@ def substitute(factors, at_x):
 
 @compiled
 def prepare_correction(factors):
-    """Z, and the factors of I - D E^T Z, rows in units of their scale; 0, or 2 if A is singular."""
+    """Z, and the factors of I - D E^T Z, rows in units of their scale; DONE, or INACCURATE if A is singular."""
     n, count = factors.n_core, 0
     added, place = reals(factors.at_perturbation, n), indices(factors.at_perturbed, factors.most_perturbed)
     for k in range(n):
@@ -79,12 +80,12 @@ def eliminate(factors, c, count):
         pivot = c[k * count + k]
         if not (isfinite(pivot) and abs(pivot) > SINGULAR_BELOW):
             factors.culprit = indices(factors.at_column_order, factors.n_core)[place[k]]
-            return 2
+            return INACCURATE
         for i in range(k + 1, count):
             c[i * count + k] /= pivot
             for j in range(k + 1, count):
                 c[i * count + j] -= c[i * count + k] * c[k * count + j]
-    return 0
+    return DONE
 
 
 @compiled

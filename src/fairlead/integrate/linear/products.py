@@ -1,4 +1,4 @@
-"""Products with J and M along their patterns, for vectors of n doubles at addresses."""
+"""Products with J and M along their patterns, for vectors of n doubles at addresses; the inertia of an unknown."""
 
 from __future__ import annotations
 
@@ -50,3 +50,14 @@ def sizes_through_jacobian(matrices, at_v, at_b):
         if v[j] != 0.0:
             for p in range(starts[j], starts[j + 1]):
                 b[rows[p]] += abs(values[p]) * v[j]
+
+
+@compiled
+def inertia_of(matrices, k):
+    """The entry of M on the diagonal of column k."""
+    starts, rows = indices(matrices.at_mass_starts, matrices.n + 1), indices(matrices.at_mass_rows, matrices.n_mass)
+    mass, found = reals(matrices.at_mass, matrices.n_mass), 1.0
+    for p in range(starts[k], starts[k + 1]):
+        if rows[p] == k:
+            found = mass[p]
+    return found

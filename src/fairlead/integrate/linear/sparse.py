@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from math import isfinite
 
+from fairlead.integrate.codes import DONE, INACCURATE
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
 GROWTH_LIMIT = 1e8
@@ -24,7 +25,7 @@ solution would count as an error (a chain that came to rest once ended a run as 
 
 @compiled
 def factorise_planned(factors):
-    """Refactorise the columns marked `dirty`, `n_redone`, and unmark them; 0 done, 2 a pivot is not to be trusted.
+    """Refactorise the `n_redone` columns marked `dirty`, and unmark them; DONE, or INACCURATE: a pivot is untrusted.
 
     Up to `most_perturbed` pivots are perturbed instead (perturbed_pivots.py).
     """
@@ -70,7 +71,7 @@ def factorise_planned(factors):
             unknown = indices(factors.at_column_order, n)[k]
             if factors.n_perturbed >= factors.most_perturbed or not (isfinite(x[k]) and isfinite(largest)):
                 factors.culprit = unknown
-                return 2
+                return INACCURATE
             added[k] = max(largest, 1.0 / reals(factors.at_column_scale, factors.n)[unknown]) / scale[k]
             added[k] = -added[k] if x[k] < 0.0 else added[k]
             x[k] += added[k]
@@ -79,7 +80,7 @@ def factorise_planned(factors):
         pivot[k] = inverse
         for p in range(below, end):
             lower[p] = x[lower_rows[p]] * inverse
-    return 0
+    return DONE
 
 
 @compiled

@@ -3,18 +3,18 @@
     step              W = s M - J, s = 1/(h gamma)
     consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
 
-Both live in `matrix`, along one fixed pattern. Below DENSE_LIMIT unknowns it is a full matrix, by
-columns, factored here with partial pivoting; above, the core of it (condensing.py) along a plan, see
-sparse.py. Unknowns are scaled by their error weight before rows are compared, so that the choice of
-pivots does not depend on units.
+Both live in `matrix`, along one fixed pattern. With up to ordering.DENSE_LIMIT unknowns, and with more where that takes
+less operations (ordering.plan), it is a full matrix, by columns, factored here with partial pivoting; else the core of
+it (condensing.py) along a plan, see sparse.py. Unknowns are scaled by their error weight before rows are compared, so
+that the choice of pivots does not depend on units.
 """
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.linear.condensed import factorise_core, solve_core
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-DONE, SINGULAR, INACCURATE = 0, 1, 2
 VANISHES = 1e-15
 """Share of the largest entry of its column below which a pivot of a full matrix is rounding. In a step of 1e-14 s all
 that a force of 1 N does to the speed of a tonne is 1e-17 m/s: a small column is no singular one."""
@@ -53,7 +53,18 @@ def solve(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
     else:
-        solve_core(linear, at_b, 0.0)
+        solve_core(linear, at_b, True, 0.0)
+
+
+@compiled
+def solve_motion(linear, at_b):
+    """As solve, but for the quadratures: for iterations, which nothing of them enters."""
+    factors = linear.factors
+    factors.solves += 1
+    if factors.dense == 1:
+        solve_dense(factors, at_b)
+    else:
+        solve_core(linear, at_b, False, 0.0)
 
 
 @compiled
@@ -68,7 +79,7 @@ def solve_watched(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
         return DONE
-    if solve_core(linear, at_b, REFINE_ABOVE) <= DISTRUST_ABOVE:
+    if solve_core(linear, at_b, True, REFINE_ABOVE) <= DISTRUST_ABOVE:
         return DONE
     factors.culprit = -1
     return INACCURATE

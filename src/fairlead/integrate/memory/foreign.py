@@ -24,8 +24,6 @@ compiled = numba.njit(error_model="numpy", _nrt=False, no_cpython_wrapper=True, 
 MEMORY = numba.from_dtype(LAYOUT)
 
 
-
-
 class View(types.Array):
     """Values at an address, for indices that are never negative.
 

@@ -52,6 +52,7 @@ INDICES = {name: length for struct in STRUCTS.values() for name, length in struc
 """Arrays of whole numbers, by the name of their length."""
 INTEGERS = tuple(name for struct in STRUCTS.values() for name in struct.integers)
 NUMBERS = tuple(name for struct in STRUCTS.values() for name in struct.numbers)
+"""Single values; tests ask of each whether a part of a problem has to take it over (tests/integrate/test_parts.py)."""
 
 _ARRAYS = VECTORS | INDICES
 LAYOUT = np.dtype(

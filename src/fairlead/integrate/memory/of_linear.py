@@ -25,7 +25,7 @@ CORE = Struct(
     integers=(
         "n_positions", "n_meters", "n_meter_entries", "n_entries",
         # which matrix is factored there, whether its factors are good
-        "core_kind", "core_valid", "skip_meters",
+        "core_kind", "core_valid",
     ),
     numbers=(
         "core_scale",

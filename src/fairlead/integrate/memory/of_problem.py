@@ -11,8 +11,8 @@ PROBLEM = Struct(
         "call_ahead", "call_swings",
     ),
     integers=(
-        # sizes; n_zones is how many machines there are, each with one zone in force (`zones`)
-        "n", "n_algebraic", "n_guards", "n_zones", "n_outputs",
+        # sizes; every machine has one zone in force (`zones`)
+        "n", "n_algebraic", "n_guards", "n_machines", "n_outputs",
         # whether contacts share what they hold
         "has_circles",
         # whether guards have inertias
@@ -67,8 +67,8 @@ PROBLEM = Struct(
         # by row who decides whether it holds, the number of the circle in which forces are shared (0: none), and with
         # which sign a force there would grow with the slip
         "holder": "n", "circle": "n", "grows_with_slip": "n",
-        "falls": "n_zones", "is_speed": "n", "struck": "n", "integral": "n",
-        "zones": "n_zones",
+        "falls": "n_machines", "is_speed": "n", "struck": "n", "integral": "n",
+        "zones": "n_machines",
         "guard_machine": "n_guards",
     },
 )  # fmt: skip

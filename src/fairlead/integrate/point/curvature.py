@@ -13,10 +13,9 @@ is larger the rest.
 
 from __future__ import annotations
 
-from fairlead.integrate.linear.products import sizes_through_jacobian
+from fairlead.integrate.linear.products import inertia_of, sizes_through_jacobian
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weighted_norm
-from fairlead.integrate.point.meters import inertia_of
 
 FORCE_ROUNDING = 1e-15
 """Share by which a force is rounded: four to five units in the last place, for those of the terms it is a sum of."""

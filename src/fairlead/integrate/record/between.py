@@ -16,19 +16,19 @@ whole step at its end (stepping/dense_output.py), else it is done in every row.
 from __future__ import annotations
 
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import solve
+from fairlead.integrate.linear.systems import solve, solve_motion
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.stiff import FURTHEST, OF_BALANCES
 
 MOST_MOVES = 12
 """Moves behind the first, at most. Where laws are linear one is enough; a flow through orifices that turns round, whose
-slope changes many times on the way, took no more than this on either engine (test_shown_in_balance.py)."""
+slope changes many times on the way, took no more than this on `rodas` and `stepping` (test_shown_in_balance.py)."""
 MOST_FURTHER = 6
 """Moves that each go FURTHEST times as far as the one before, at most: a law a millionth as stiff is none."""
 LAST_MOVE = 1e-6
 """Share of the first move that the last one may have: what is left of the error of an unknown that was to be shown in
 balance, and of what flows."""
-ROUNDING = 32 * 2.2e-16
+SHOWN_ROUNDING = 32 * 2.2e-16
 """What is moved by less than this share of its scale, the weight by its relative part, is moved by rounding."""
 
 
@@ -40,11 +40,13 @@ def zones_inside(m, t, at_y):
     would else push. `zones_probed` keeps the zones of the end (`zones_of_end`).
     """
     problem, guards, contacts = m.problem, m.events.guards, m.stepping.contacts
-    zones, before = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_at_start, problem.n_zones)
-    hold_row, first = indices(contacts.at_hold_row, problem.n_zones), indices(contacts.at_first_guard, problem.n_zones)
-    switched, g = indices(contacts.at_switched, problem.n_zones), reals(guards.at_g_probe, guards.n_guards)
+    zones = indices(problem.at_zones, problem.n_machines)
+    before = indices(contacts.at_zones_at_start, problem.n_machines)
+    hold_row = indices(contacts.at_hold_row, problem.n_machines)
+    first = indices(contacts.at_first_guard, problem.n_machines)
+    switched, g = indices(contacts.at_switched, problem.n_machines), reals(guards.at_g_probe, guards.n_guards)
     machine = indices(problem.at_guard_machine, guards.n_guards)
-    copy(zones, indices(contacts.at_zones_probed, problem.n_zones))
+    copy(zones, indices(contacts.at_zones_probed, problem.n_machines))
     field_at(problem.call_guards, (problem.context, t, at_y, guards.at_g_probe))
     problem.guards += 1
     for k in range(contacts.n_switched):
@@ -59,7 +61,7 @@ def zones_inside(m, t, at_y):
 @compiled
 def zones_of_end(problem, contacts):
     """Take back what `zones_inside` did."""
-    copy(indices(contacts.at_zones_probed, problem.n_zones), indices(problem.at_zones, problem.n_zones))
+    copy(indices(contacts.at_zones_probed, problem.n_machines), indices(problem.at_zones, problem.n_machines))
 
 
 @compiled
@@ -100,7 +102,7 @@ def balance_stiff(m, t, s, at_y):
     How far to go along the move that the factors of the step give follows from the residuals before and after it. What
     has no inertia is moved together, and further (`balance_on`).
     """
-    problem, point, core = m.problem, m.point, m.linear.core
+    problem, point = m.problem, m.point
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
     start, end, D, y = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_D, 3 * n), reals(at_y, n)
     f, minus_rate, move, inert, before = (
@@ -119,9 +121,7 @@ def balance_stiff(m, t, s, at_y):
     for k in range(n):
         move[k] = f[k] + inert[k] if stiff[k] == 1 else 0.0
     copy(move, before)
-    core.skip_meters = 1
-    solve(m.linear, point.at_b)
-    core.skip_meters = 0
+    solve_motion(m.linear, point.at_b)
     for k in range(n):
         inert[k] = 0.0
         if stiff[k] == 1:
@@ -205,7 +205,7 @@ def balance_on(m, t, at_y):
         y <- y + d - g (s + d - d_before)    g = <d - d_before, d>/|d - d_before|^2,  s the last change of y
 
     in weights: of one unknown that is the secant method, and where laws are linear the second move is rounding. Where
-    they come neither to LAST_MOVE of the first nor to ROUNDING, all are taken back. That is known when a move is
+    they come neither to LAST_MOVE of the first nor to SHOWN_ROUNDING, all are taken back. That is known when a move is
     FURTHEST times the first, or when it leaves the next as it was but for a part in FURTHEST: a law without a slope
     there has no such balance, and where unknowns that follow would have to move no moves of these come to one.
     """
@@ -222,22 +222,20 @@ def balance_on(m, t, at_y):
         before[k] = before[k] if mine else 0.0
         change[k], start[k] = before[k], y[k] - before[k]
         first += (before[k] / weight[k]) ** 2
-        done = done and abs(before[k]) * relative[k] <= ROUNDING * weight[k]
+        done = done and abs(before[k]) * relative[k] <= SHOWN_ROUNDING * weight[k]
     for pass_ in range(MOST_MOVES if not done else 0):
         if pass_ > 0:
             field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
             problem.rhs += 1
         for k in range(n):
             move[k] = f[k] if stiff[k] == 1 and differential[k] == 0 else 0.0
-        m.linear.core.skip_meters = 1
-        solve(m.linear, point.at_b)
-        m.linear.core.skip_meters = 0
+        solve_motion(m.linear, point.at_b)
         size, product, square, done = 0.0, 0.0, 0.0, True
         for k in range(n):
             if stiff[k] == 1 and differential[k] == 0:
                 now, apart = move[k] / weight[k], (move[k] - before[k]) / weight[k]
                 size, product, square = size + now * now, product + now * apart, square + apart * apart
-                done = done and abs(now) * relative[k] <= ROUNDING
+                done = done and abs(now) * relative[k] <= SHOWN_ROUNDING
         done = done or size <= LAST_MOVE * LAST_MOVE * first
         share = product / square if square > 0.0 and not done else 0.0
         if not done and size > FURTHEST * FURTHEST * min(first, square):

@@ -42,7 +42,7 @@ def write_event(point, settling, recorder, machine, before, after, guard):
 @compiled
 def there_is_room(problem, recorder):
     """True if the next pass of a settlement fits whatever happens in it, and the rows around it."""
-    events = recorder.events + problem.n_zones + problem.n_guards
+    events = recorder.events + problem.n_machines + problem.n_guards
     return recorder.rows + 4 <= recorder.row_capacity and events <= recorder.event_capacity
 
 
@@ -108,8 +108,8 @@ def shown_end(m):
         return point.at_y_piece
     copy(reals(point.at_y_piece, point.n), reals(point.at_y_probe, point.n))
     whole = recorder.most_inside == PARABOLA and m.stepping.rule.locates == 0
-    theta = 1.0 if whole else (run.t_piece - point.t) / run.h
-    balance_stiff(m, run.t_piece, theta, point.at_y_probe)
+    s = 1.0 if whole else (run.t_piece - point.t) / run.h
+    balance_stiff(m, run.t_piece, s, point.at_y_probe)
     return point.at_y_probe
 
 

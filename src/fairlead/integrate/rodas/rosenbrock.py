@@ -7,8 +7,9 @@ See tableau.py for the letters.
 
 from __future__ import annotations
 
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import DONE, factorise_step, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_step, solve, solve_watched
 from fairlead.integrate.loop import method_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep

@@ -23,7 +23,9 @@ HANDED_ON, RUNS_ON = 0.8, 0.7
 one, contacts are let go that must be caught again, and catching takes with it some that had to go."""
 LONGEST_FRONT = 64
 MET = 1
-"""What `met` says of a machine that lets go; 0 of others."""
+"""What `met` says of a machine that lets go. It is 0 of others, and the place in `fired` + 2 of one that was handed a
+load in the round that is going on (`hand_on_from`). Between two passes all are 0, and jump_inside.py marks there which
+laws have jumped."""
 
 
 @compiled
@@ -38,7 +40,8 @@ def begin_set(run, settling, stepping):
     caught, row = indices(exchange.at_caught, rule.n), indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     for e in range(exchange.n_hold_mass):
         caught[row[e]] = 0
-    copy(indices(settling.at_zones, settling.n_zones), indices(stepping.contacts.at_zones_at_start, settling.n_zones))
+    nz = settling.n_machines
+    copy(indices(settling.at_zones, nz), indices(stepping.contacts.at_zones_at_start, nz))
     remember_pattern(run, settling)
 
 
@@ -50,7 +53,7 @@ def expect_fronts(m, h):
     contacts.expecting = 0
     if contacts.n_neighbours == 0 or rule.gap == 0.0 or rule.failed > 0 or rule.frozen == 1:
         return
-    nz, ng = problem.n_zones, problem.n_guards
+    nz, ng = problem.n_machines, problem.n_guards
     released, slot = indices(contacts.at_released, nz), indices(contacts.at_released_by, nz)
     first = indices(contacts.at_first_guard, nz)
     starts = indices(contacts.at_neighbour_starts, nz + 1)
@@ -93,14 +96,14 @@ def expect_fronts(m, h):
 def still_holds(stepping, z):
     """True if the row of machine z holds."""
     exchange = stepping.exchange
-    row = indices(stepping.contacts.at_hold_row, exchange.n_zones)[z]
+    row = indices(stepping.contacts.at_hold_row, exchange.n_machines)[z]
     return row >= 0 and indices(exchange.at_holds, exchange.n)[row] == 1
 
 
 @compiled
 def length_of_front(run, contacts, z, beyond):
     """How many contacts in line, z the last of them, let go in the last step."""
-    released, length = indices(contacts.at_released, contacts.n_zones), 1
+    released, length = indices(contacts.at_released, contacts.n_machines), 1
     while length < LONGEST_FRONT:
         behind = next_in_line(contacts, z, beyond)
         if behind < 0 or released[behind] != run.steps:
@@ -113,7 +116,7 @@ def length_of_front(run, contacts, z, beyond):
 @compiled
 def next_in_line(contacts, z, before):
     """The neighbour of z on the other side than `before`, -1 at an end or a branch."""
-    starts = indices(contacts.at_neighbour_starts, contacts.n_zones + 1)
+    starts = indices(contacts.at_neighbour_starts, contacts.n_machines + 1)
     neighbours = indices(contacts.at_neighbours, contacts.n_neighbours)
     other, count = -1, 0
     for e in range(starts[z], starts[z + 1]):
@@ -124,20 +127,8 @@ def next_in_line(contacts, z, before):
 
 
 @compiled
-def fire_violators_of_step(guards):
-    """Fill `fired` with the guards above their tolerance at the end of the step."""
-    g, tolerance = reals(guards.at_g_end, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    fired = indices(guards.at_fired, guards.n_guards)
-    guards.n_fired = 0
-    for i in range(guards.n_guards):
-        if g[i] > tolerance[i]:
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
-
-
-@compiled
 def follow_guards(m, h, cascade):
-    """Switch on `fired`, all or the first; True if the switch changes unknowns (a rebound)."""
+    """Switch on `fired`, all, those half as wrong as the worst, or one; True if that changes unknowns (a rebound)."""
     problem, run, point, events, guards = m.problem, m.run, m.point, m.events, m.events.guards
     settling, contacts = m.events.settling, m.stepping.contacts
     if settling.passes >= run.max_passes:
@@ -195,7 +186,7 @@ def hand_on(guards, contacts):
     From neighbour to neighbour, all of one distance at once; who is handed something from two sides takes the larger,
     so that it does not matter from which side one begins.
     """
-    ng, nz = guards.n_guards, contacts.n_zones
+    ng, nz = guards.n_guards, contacts.n_machines
     fired, machine = indices(guards.at_fired, ng), indices(guards.at_guard_machine, ng)
     excess = reals(guards.at_g_probe, ng)
     g, met = reals(guards.at_g_end, ng), indices(contacts.at_met, nz)
@@ -219,7 +210,7 @@ def hand_on(guards, contacts):
 @compiled
 def hand_on_from(guards, contacts, k):
     """Hand what is too much for the contact of fired guard k to its neighbours; `met` of a new one is its place + 2."""
-    ng, nz = guards.n_guards, contacts.n_zones
+    ng, nz = guards.n_guards, contacts.n_machines
     fired, machine = indices(guards.at_fired, ng), indices(guards.at_guard_machine, ng)
     is_limit = indices(contacts.at_limit_guard, ng)
     g, tolerance = reals(guards.at_g_end, ng), reals(guards.at_guard_tolerance, ng)
@@ -258,8 +249,9 @@ def note_released(run, guards, stepping):
     contacts = stepping.contacts
     fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
     is_limit = indices(contacts.at_limit_guard, guards.n_guards)
-    first = indices(contacts.at_first_guard, contacts.n_zones)
-    released, slot = indices(contacts.at_released, contacts.n_zones), indices(contacts.at_released_by, contacts.n_zones)
+    first = indices(contacts.at_first_guard, contacts.n_machines)
+    released = indices(contacts.at_released, contacts.n_machines)
+    slot = indices(contacts.at_released_by, contacts.n_machines)
     for k in range(guards.n_fired):
         z = machine[fired[k]]
         if z >= 0 and is_limit[fired[k]] == 1 and still_holds(stepping, z):
@@ -271,12 +263,14 @@ def note_released(run, guards, stepping):
 @compiled
 def learn_from_neighbours(run, guards, contacts):
     """Limits in `fired` at which the law of a neighbour was seen to be continuous count as continuous here too."""
-    known, first = indices(contacts.at_continuous, guards.n_guards), indices(contacts.at_first_guard, contacts.n_zones)
-    released, slot = indices(contacts.at_released, contacts.n_zones), indices(contacts.at_released_by, contacts.n_zones)
-    starts = indices(contacts.at_neighbour_starts, contacts.n_zones + 1)
+    known = indices(contacts.at_continuous, guards.n_guards)
+    first = indices(contacts.at_first_guard, contacts.n_machines)
+    released = indices(contacts.at_released, contacts.n_machines)
+    slot = indices(contacts.at_released_by, contacts.n_machines)
+    starts = indices(contacts.at_neighbour_starts, contacts.n_machines + 1)
     neighbours = indices(contacts.at_neighbours, contacts.n_neighbours)
     fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
-    is_limit, zones = indices(contacts.at_limit_guard, guards.n_guards), indices(contacts.at_zones, contacts.n_zones)
+    is_limit, zones = indices(contacts.at_limit_guard, guards.n_guards), indices(contacts.at_zones, contacts.n_machines)
     found = guards.n_guards
     while found > 0:  # as often as one learns from another that has just learned
         found = 0

@@ -21,7 +21,7 @@ from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.point.even_steps import COARSE, root_of_power, rounded
 from fairlead.integrate.stepping.limit_violation import HELD_THROUGH
 from fairlead.integrate.stepping.located_step import CAREFUL
-from fairlead.integrate.stepping.row_cache import forget_rows
+from fairlead.integrate.stepping.row_cache import forget_jacobian, forget_rows
 
 BLOCK = 5
 """Steps of a block: what a step allowed is remembered for as many to twice as many."""
@@ -102,7 +102,7 @@ def begin_history(run, point, matrices, stepping):
     slope, curvature, rate = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
     before, earlier = reals(rule.at_slope_before, n), reals(rule.at_slope_earlier, n)
     differential = indices(point.at_differential, n)
-    rule.linearised = 0
+    forget_jacobian(rule)
     forget_rows(stepping.exchange)
     rule.failed = 0
     begin_rest(stepping.contacts)

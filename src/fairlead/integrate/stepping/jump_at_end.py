@@ -13,7 +13,8 @@ from __future__ import annotations
 
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
+from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.stepping.other_zones import forces_if_switched, switch_back, switch_for_now
 
 LOCATING = 6
 """Evaluations spent on the place where a guard comes to zero. The Illinois rule is of order 1.44 an evaluation (Dowell
@@ -26,7 +27,7 @@ SMOOTH, JUMPS_SOMEWHERE = 1, 2
 def all_continuous(guards, contacts):
     """True if every guard in `fired` was found continuous in the zone its machine is in."""
     fired, known = indices(guards.at_fired, guards.n_guards), indices(contacts.at_continuous, guards.n_guards)
-    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_zones)
+    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_machines)
     may_jump = indices(contacts.at_may_jump, guards.n_guards)
     for k in range(guards.n_fired):
         i = fired[k]
@@ -67,14 +68,14 @@ def find_jumping_law(m, h):
     """
     guards, contacts = m.events.guards, m.stepping.contacts
     fired, known = indices(guards.at_fired, guards.n_guards), indices(contacts.at_continuous, guards.n_guards)
-    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_zones)
+    machine, zones = indices(guards.at_guard_machine, guards.n_guards), indices(contacts.at_zones, contacts.n_machines)
     may_jump = indices(contacts.at_may_jump, guards.n_guards)
     copy(fired, indices(contacts.at_suspects, guards.n_guards))
     suspects, count = indices(contacts.at_suspects, guards.n_guards), guards.n_fired
     found = False
     for k in range(count):
         i = suspects[k]
-        if holds_row(contacts, machine[i]):
+        if has_hold_row(contacts, machine[i]):
             continue  # jump_inside.py
         if may_jump[i] == 1 and (machine[i] < 0 or known[i] != zones[machine[i]] + 1):
             jumps = jumps_at_guard(m, h, i)
@@ -86,17 +87,17 @@ def find_jumping_law(m, h):
 
 
 @compiled
-def holds_row(contacts, z):
+def has_hold_row(contacts, z):
     """True if machine z is known to hold a row: its jumps are put right inside the step (jump_inside.py)."""
-    return z >= 0 and indices(contacts.at_hold_row, contacts.n_zones)[z] >= 0
+    return z >= 0 and indices(contacts.at_hold_row, contacts.n_machines)[z] >= 0
 
 
 @compiled
 def note_kind(contacts, z, jumps):
     """Remember of the kind of machine z whether its laws are continuous where seen; one that jumps speaks for all."""
     if z >= 0:
-        smooth = indices(contacts.at_kind_is_smooth, contacts.n_zones)
-        kind = indices(contacts.at_own_kind, contacts.n_zones)[z]
+        smooth = indices(contacts.at_kind_is_smooth, contacts.n_machines)
+        kind = indices(contacts.at_own_kind, contacts.n_machines)[z]
         if jumps:
             smooth[kind] = JUMPS_SOMEWHERE
         elif smooth[kind] != JUMPS_SOMEWHERE:
@@ -111,20 +112,12 @@ def jumps_at_guard(m, h, i):
     if not (may_cross(guards, i) and reals(guards.at_g_end, problem.n_guards)[i] > 0.0):
         return False
     s = locate_guard(problem, m.run, point, guards, h, i)
-    t = point.t + s * h
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
-    zones = indices(problem.at_zones, problem.n_zones)
-    kept = indices(m.stepping.contacts.at_zones_probed, problem.n_zones)
     fired = indices(guards.at_fired, problem.n_guards)
-    copy(zones, kept)
     copy(reals(point.at_y_probe, n), reals(point.at_u, n))
     first = fired[0]
     fired[0] = i
-    switch_at(problem.call_switch, (problem.context, t, point.at_u, guards.at_fired, 1))
+    forces_if_switched(problem, point, guards, m.stepping.contacts, point.t + s * h, point.at_y_probe, point.at_u, 1)
     fired[0] = first
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_f))
-    problem.rhs += 2
-    copy(kept, zones)
     f_old, f_new = reals(point.at_x, n), reals(point.at_f, n)
     differential, weight = indices(problem.at_differential, n), reals(m.linear.factors.at_column_scale, n)
     found = False
@@ -208,7 +201,7 @@ def find_due_jump(m, h):
     to_end = 0.5 * h / (rule.gap + 0.5 * h)
     guards.n_fired = 0
     for i in range(guards.n_guards):
-        if may_jump[i] == 0 or holds_row(contacts, machine[i]):
+        if may_jump[i] == 0 or has_hold_row(contacts, machine[i]):
             continue
         if may_cross(guards, i) and g_end[i] > g[i] and g_end[i] + to_end * (g_end[i] - g[i]) > 0.0:
             fired[guards.n_fired] = i
@@ -238,15 +231,15 @@ def keep_means(m, h):
 @compiled
 def next_law_jumps(m, h):
     """True if a row of the next zone, on the line from the start of the step through its end, is not zero there."""
-    problem, point, guards = m.problem, m.point, m.events.guards
+    problem, point, guards, contacts = m.problem, m.point, m.events.guards, m.stepping.contacts
     n = problem.n
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_x))
     copy(reals(point.at_y_end, n), reals(point.at_y_probe, n))
-    switch_at(problem.call_switch, (problem.context, point.t + h, point.at_y_probe, guards.at_fired, guards.n_fired))
+    switch_for_now(problem, guards, contacts, point.t + h, point.at_y_probe, guards.n_fired)
     field_at(problem.call_rhs, (problem.context, point.t, point.at_y, point.at_f))
     field_at(problem.call_rhs, (problem.context, point.t + h, point.at_y_end, point.at_v))
     problem.rhs += 3
-    copy(indices(m.stepping.contacts.at_zones_at_start, problem.n_zones), indices(problem.at_zones, problem.n_zones))
+    switch_back(problem, contacts)
     f_new_start, f_new_end, f_old = reals(point.at_f, n), reals(point.at_v, n), reals(point.at_x, n)
     differential, weight = indices(problem.at_differential, n), reals(m.linear.factors.at_column_scale, n)
     fired = indices(guards.at_fired, problem.n_guards)
@@ -254,8 +247,8 @@ def next_law_jumps(m, h):
         if differential[i] == 0 and f_old[i] != f_new_end[i]:
             least = 1e300
             for k in range(guards.n_fired):
-                at_zero = f_new_start[i] + zero_of_guard(guards, fired[k]) * (f_new_end[i] - f_new_start[i])
-                least = min(least, abs(at_zero))
+                row_at_zero = f_new_start[i] + zero_of_guard(guards, fired[k]) * (f_new_end[i] - f_new_start[i])
+                least = min(least, abs(row_at_zero))
             if least > weight[i]:
                 return True
     return False

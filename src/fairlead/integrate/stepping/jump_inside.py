@@ -56,10 +56,10 @@ def forget_jumps(rule):
 
 
 @compiled
-def note_fired(guards, contacts):
+def remember_before_switch(guards, contacts):
     """Before the zones switch: the guards in `fired`, and all zones."""
     copy(indices(guards.at_fired, guards.n_guards), indices(contacts.at_suspects, guards.n_guards))
-    copy(indices(contacts.at_zones, contacts.n_zones), indices(contacts.at_zones_probed, contacts.n_zones))
+    copy(indices(contacts.at_zones, contacts.n_machines), indices(contacts.at_zones_probed, contacts.n_machines))
     contacts.n_suspects = guards.n_fired
 
 
@@ -68,10 +68,10 @@ def find_limits(guards, contacts):
     """After the zones have switched: of every machine that has, where between two middles its limit was reached."""
     n = guards.n_guards
     suspects, machine = indices(contacts.at_suspects, n), indices(guards.at_guard_machine, n)
-    at, may_jump = reals(contacts.at_jump_at, contacts.n_zones), indices(contacts.at_may_jump, n)
-    zones, old = indices(contacts.at_zones, contacts.n_zones), indices(contacts.at_zones_probed, contacts.n_zones)
-    start = indices(contacts.at_zones_at_start, contacts.n_zones)
-    for z in range(contacts.n_zones):
+    at, may_jump = reals(contacts.at_jump_at, contacts.n_machines), indices(contacts.at_may_jump, n)
+    zones, old = indices(contacts.at_zones, contacts.n_machines), indices(contacts.at_zones_probed, contacts.n_machines)
+    start = indices(contacts.at_zones_at_start, contacts.n_machines)
+    for z in range(contacts.n_machines):
         at[z] = STAYED if zones[z] == old[z] else NO_LIMIT
     for k in range(contacts.n_suspects):
         i, z = suspects[k], machine[suspects[k]]
@@ -92,9 +92,9 @@ def put_jumps_right(m, h):
 @compiled
 def any_falls(problem, contacts):
     """True if the friction of a machine that has switched falls as it lets go: no other law jumps in its row."""
-    falls, at = indices(problem.at_falls, problem.n_zones), reals(contacts.at_jump_at, contacts.n_zones)
+    falls, at = indices(problem.at_falls, problem.n_machines), reals(contacts.at_jump_at, contacts.n_machines)
     found = False
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         found = found or (falls[z] == 1 and at[z] != STAYED)
     return found
 
@@ -104,8 +104,8 @@ def ask_of_rows(m, h):
     """Of the rows of those whose friction falls, by f at both ends; nothing is asked of others."""
     problem, point, contacts, rule = m.problem, m.point, m.stepping.contacts, m.stepping.rule
     n = problem.n
-    holder, at = indices(problem.at_holder, n), reals(contacts.at_jump_at, contacts.n_zones)
-    jumped, falls = indices(contacts.at_met, contacts.n_zones), indices(problem.at_falls, problem.n_zones)
+    holder, at = indices(problem.at_holder, n), reals(contacts.at_jump_at, contacts.n_machines)
+    jumped, falls = indices(contacts.at_met, contacts.n_machines), indices(problem.at_falls, problem.n_machines)
     field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
     field_at(problem.call_forces, (problem.context, point.t + h, point.at_y_end, point.at_f))
     problem.rhs += 2
@@ -136,15 +136,15 @@ def note_kinds(guards, contacts, sure):
     """
     n = guards.n_guards
     suspects, machine = indices(contacts.at_suspects, n), indices(guards.at_guard_machine, n)
-    known, old = indices(contacts.at_continuous, n), indices(contacts.at_zones_probed, contacts.n_zones)
-    at, jumped = reals(contacts.at_jump_at, contacts.n_zones), indices(contacts.at_met, contacts.n_zones)
+    known, old = indices(contacts.at_continuous, n), indices(contacts.at_zones_probed, contacts.n_machines)
+    at, jumped = reals(contacts.at_jump_at, contacts.n_machines), indices(contacts.at_met, contacts.n_machines)
     for k in range(contacts.n_suspects):
         z = machine[suspects[k]]
         if z >= 0 and at[z] >= 0.0 and (sure or jumped[z] == 1):
             note_kind(contacts, z, jumped[z] == 1)
             if jumped[z] == 0:
                 known[suspects[k]] = old[z] + 1
-    for z in range(contacts.n_zones):
+    for z in range(contacts.n_machines):
         jumped[z] = 0
 
 
@@ -184,4 +184,5 @@ def is_doubtful(problem, guards, stepping, i):
     z, contacts = indices(guards.at_guard_machine, guards.n_guards)[i], stepping.contacts
     if z < 0 or indices(contacts.at_limit_guard, guards.n_guards)[i] == 1:
         return False
-    return indices(problem.at_falls, problem.n_zones)[z] == 1 and indices(contacts.at_hold_row, problem.n_zones)[z] >= 0
+    falls = indices(problem.at_falls, problem.n_machines)[z] == 1
+    return falls and indices(contacts.at_hold_row, problem.n_machines)[z] >= 0

@@ -39,11 +39,11 @@ def unseen_slip(point, matrices, guards, stepping, h):
     g, g_end = reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards)
     is_limit = indices(contacts.at_limit_guard, guards.n_guards)
     machine = indices(guards.at_guard_machine, guards.n_guards)
-    hold_row, rested = indices(contacts.at_hold_row, exchange.n_zones), indices(contacts.at_rested, point.n)
+    hold_row, rested = indices(contacts.at_hold_row, exchange.n_machines), indices(contacts.at_rested, point.n)
     holds = indices(exchange.at_holds, point.n)
     tolerance = reals(guards.at_guard_tolerance, guards.n_guards)
-    smooth = indices(contacts.at_kind_is_smooth, exchange.n_zones)
-    kind = indices(contacts.at_own_kind, exchange.n_zones)
+    smooth = indices(contacts.at_kind_is_smooth, exchange.n_machines)
+    kind = indices(contacts.at_own_kind, exchange.n_machines)
     largest = 0.0
     near, between = rule.gap + 0.5 * h, 0.5 * (rule.gap + 0.5 * h + rule.gap_before)
     per_near, per_before, per_between = 1.0 / near, 1.0 / rule.gap_before, 1.0 / between
@@ -58,13 +58,14 @@ def unseen_slip(point, matrices, guards, stepping, h):
             peak = max(g[i], g_end[i]) + BEYOND * h * h * curve
             if peak > tolerance[i] and abs(rate) <= curve * (rule.gap + 0.5 * h):
                 error = error_of_peak(point, matrices, contacts, h, z, peak)
-            at_end = g_end[i] + 0.5 * h * (rate + 0.5 * curve * (rule.gap + h))
-            if rate > 0.0 and at_end > tolerance[i]:
-                error = max(error, error_of_speed(point, matrices, contacts, h, z, at_end, min(at_end / rate, h)))
+            over_at_end = g_end[i] + 0.5 * h * (rate + 0.5 * curve * (rule.gap + h))
+            if rate > 0.0 and over_at_end > tolerance[i]:
+                lasting = min(over_at_end / rate, h)
+                error = max(error, error_of_speed(point, matrices, contacts, h, z, over_at_end, lasting))
         else:
-            at_start = -(g[i] + rate * rule.gap)
-            if rate > 0.0 and at_start > tolerance[i] and at_start < h * rate:
-                error = error_of_speed(point, matrices, contacts, h, z, at_start, at_start / rate)
+            over_at_start = -(g[i] + rate * rule.gap)
+            if rate > 0.0 and over_at_start > tolerance[i] and over_at_start < h * rate:
+                error = error_of_speed(point, matrices, contacts, h, z, over_at_start, over_at_start / rate)
         if smooth[kind[z]] == SMOOTH:
             error /= ONCE
         if error > largest:
@@ -81,23 +82,25 @@ def unseen_force(m, h):
     cannot hold what is left over there has moved meanwhile: by up to F h^2/(12 m), F beyond either limit.
     """
     problem, point, contacts = m.problem, m.point, m.stepping.contacts
-    zones, before = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_at_start, problem.n_zones)
-    hold_row, holds = indices(contacts.at_hold_row, problem.n_zones), indices(m.stepping.exchange.at_holds, problem.n)
+    zones = indices(problem.at_zones, problem.n_machines)
+    before = indices(contacts.at_zones_at_start, problem.n_machines)
+    hold_row = indices(contacts.at_hold_row, problem.n_machines)
+    holds = indices(m.stepping.exchange.at_holds, problem.n)
     changed = False
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         changed = changed or (zones[z] != before[z] and hold_row[z] < 0)
     if not changed:
         return 0.0
     field_at(problem.call_forces, (problem.context, point.t + h, point.at_y_end, point.at_x))
     problem.rhs += 1
     left_over, g_end = reals(point.at_x, problem.n), reals(m.events.guards.at_g_end, problem.n_guards)
-    first = indices(contacts.at_first_guard, problem.n_zones)
+    first = indices(contacts.at_first_guard, problem.n_machines)
     machine = indices(problem.at_guard_machine, problem.n_guards)
     is_limit = indices(contacts.at_limit_guard, problem.n_guards)
-    bodies = indices(contacts.at_body_starts, problem.n_zones + 1)
+    bodies = indices(contacts.at_body_starts, problem.n_machines + 1)
     speed = indices(contacts.at_body_speed, contacts.n_body_speed)
     largest = 0.0
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         if hold_row[z] < 0 or holds[hold_row[z]] == 0 or bodies[z] == bodies[z + 1]:
             continue
         over, i = 0.0, first[z]

@@ -7,7 +7,7 @@ are judged on the dense output as `rodas` judges them (crossing.py), and what fi
     forces     means over the step, so those of its middle; at its end the line through this middle and the one
                before says what they are, and between its ends a straight line
     error      the third difference of all differential unknowns, speeds among them; of a force that holds the second
-    energy     from the states at the nodes of Gauss (meters.py)
+    energy     from the states at the nodes of Gauss (quadratures.py)
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ HOLD_SHARE = 0.025
 """Share of the second difference of a holding force that counts as its error."""
 LITTLE = 1.0 / CAREFUL
 """Weights of a force that the stop of a slip that counts as none may seem to be: what is allowed of any error."""
-ROUNDING = 16 * 2.0**-52
+MOMENTUM_ROUNDING = 16 * 2.0**-52
 """Share of a momentum to which the change of it in a step is known: a few ulps, and twice as many of two steps."""
 FOLLOWED = 0.1
 """Share of the way to the balance that is left as error where it was gone. The factors of the step go all of it but
@@ -44,7 +44,7 @@ def holds_with_slip(m):
         return False
     minus_slip, holder = reals(point.at_minus_slip, problem.n), indices(problem.at_holder, problem.n)
     holds, weight = indices(m.stepping.exchange.at_holds, problem.n), reals(point.at_weight, problem.n)
-    inertia = reals(m.stepping.contacts.at_held_inertia, problem.n_zones)
+    inertia = reals(m.stepping.contacts.at_held_inertia, problem.n_machines)
     field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_minus_slip))
     weigh(point, point.at_y)
     found = False
@@ -90,7 +90,7 @@ def add_error_of_forces(m, h):
         k, j = row[e], column[e]
         if holds[k] == 1 and differential[k] == 0 and own[j] >= 0 and masses[entry[e]] != 0.0:
             momentum = abs(masses[own[j]] * y_end[j] / masses[entry[e]])
-            error[k] = max(error[k] - HOLD_SHARE * ROUNDING * momentum / h, 0.0)
+            error[k] = max(error[k] - HOLD_SHARE * MOMENTUM_ROUNDING * momentum / h, 0.0)
 
 
 @compiled

@@ -21,12 +21,12 @@ from math import sqrt
 
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import smallest_step
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
+from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.controller import IDLE_ERROR
 from fairlead.integrate.point.interpolant import interpolate
-from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.stepping.jump_at_end import has_hold_row
 from fairlead.integrate.stepping.limit_violation import BEYOND
-from fairlead.integrate.stepping.response import response_of
+from fairlead.integrate.stepping.other_zones import forces_if_switched, speed_off
 
 PARTS = 8
 """No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
@@ -100,49 +100,32 @@ def note_touched(m, s, h):
 @compiled
 def impulse_counts(m, s, h, found, lasting):
     """True if what the first of `fired` would do meanwhile, at its most two thirds of the time, is above a weight."""
-    problem, point, contacts, matrices = m.problem, m.point, m.stepping.contacts, m.linear.matrices
-    t = point.t + s * h
-    zones, kept = indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones)
-    copy(zones, kept)
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_f))
-    switch_at(problem.call_switch, (problem.context, t, point.at_y_probe, m.events.guards.at_fired, found))
-    field_at(problem.call_forces, (problem.context, t, point.at_y_probe, point.at_x))
-    copy(kept, zones)
-    problem.rhs += 2
-    f_new, f_old = reals(point.at_x, problem.n), reals(point.at_f, problem.n)
-    weight, position = reals(point.at_weight, problem.n), indices(problem.at_position_of, problem.n)
-    for v in range(problem.n):
-        x = position[v]
-        inertia = inertia_of(matrices, v) if x >= 0 and f_old[v] != f_new[v] else 0.0
-        if inertia > 0.0:
-            error = lasting * abs(f_new[v] - f_old[v]) / (1.5 * inertia)
-            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
-                return True
-    return False
+    problem, point, t = m.problem, m.point, m.point.t + s * h
+    at_y = point.at_y_probe
+    forces_if_switched(problem, point, m.events.guards, m.stepping.contacts, t, at_y, at_y, found)
+    return speed_off(problem, point, m.linear.matrices, lasting, 1.5) >= 0
 
 
 @compiled
 def is_free(m, i):
     """True if guard i is of a machine that holds nothing."""
-    machine = indices(m.events.guards.at_guard_machine, m.events.guards.n_guards)
-    return machine[i] >= 0 and indices(m.stepping.contacts.at_hold_row, m.events.settling.n_zones)[machine[i]] < 0
+    z = indices(m.events.guards.at_guard_machine, m.events.guards.n_guards)[i]
+    return z >= 0 and not has_hold_row(m.stepping.contacts, z)
 
 
 @compiled
 def find_touch_while_idle(m, h):
-    """The same of a step that its error does not limit."""
-    run, point, guards, settling, contacts = m.run, m.point, m.events.guards, m.events.settling, m.stepping.contacts
+    """True if a guard of a machine that holds nothing is above its tolerance in a step that no error limits."""
+    run, point, guards = m.run, m.point, m.events.guards
     y, y_end, probe = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_y_probe, point.n)
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
-    machine = indices(guards.at_guard_machine, guards.n_guards)
-    hold_row = indices(contacts.at_hold_row, settling.n_zones)
     for part in range(1, PARTS):
         s = part / PARTS
         for k in range(point.n):
             probe[k] = y[k] + s * (y_end[k] - y[k])
         evaluate_guards(m.problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
         for i in range(guards.n_guards):
-            if g[i] > tolerance[i] and machine[i] >= 0 and hold_row[machine[i]] < 0:
+            if g[i] > tolerance[i] and is_free(m, i):
                 m.stepping.rule.t_cut = point.t + s * h
                 point.worst = -1
                 return s * h > smallest_step(run, point)

@@ -1,31 +1,32 @@
-"""All that has a step of `stepping` taken again, and with which length; or settled at its start; or with other pivots.
+"""What has a step of `stepping` taken again, and with which length; or settled at its start; or with other pivots.
 
     an error above one              shorter, by the error                         `reject_error`
     not solved, or zones cycle      half of it, or the same without predictions   `halve_unsolved`
-    no good pivots                  half of it, or with other pivots              `find_pivots`
+    no good pivots                  half of it, or with other pivots              `halve_or_replan`
     a law that jumps                up to the jump, by event localisation         `localise_jump`, `end_at_switch`
                                     a settlement where it jumps at the start      `settle_jump`
     a switch whose impulse counts   up to the switch                              `find_switch_passed`, `end_at_switch`
 
 All but the pivots and the settlement end in `take_again` (events/given_up.py), which alone sets the length of what
-follows; `repeat` gives back the zones of the start before.
+follows; `repeat` gives back the zones of the start before. Not here is what steps that end at every switch share with
+`rodas`: the piece up to a switch as a step of its own (one_step.take_piece), and the companion rule
+(given_up.mend_start).
 """
 
 from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import GO_ON, REPLAN, SINGULAR_MATRIX, STEP_FLOOR, UNSETTLED
+from fairlead.integrate.codes import CYCLES, GO_ON, NOT_SETTLED, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import still_for
 from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_again
 from fairlead.integrate.events.pace import not_finite_here, smallest_step
-from fairlead.integrate.linear.systems import SINGULAR
 from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.point.controller import step_after_rejection
 from fairlead.integrate.stepping.history import note_rejection
 from fairlead.integrate.stepping.passed_over import find_passed_guard
 from fairlead.integrate.stepping.switch_inside import find_missed_impulse
-from fairlead.integrate.stepping.theta_step import CYCLES, give_back_zones
+from fairlead.integrate.stepping.theta_step import give_back_zones
 
 HALVINGS = 3
 """Halvings of a step whose iteration met a matrix without good pivots, before others are asked for: mostly it had
@@ -89,7 +90,7 @@ def halve_unsolved(m, h, status):
     if run.h_next >= smallest_step(run, point):
         return GO_ON
     if status == CYCLES:
-        return UNSETTLED
+        return NOT_SETTLED
     return not_finite_here(m.problem, run, point, SINGULAR_MATRIX if status == SINGULAR else STEP_FLOOR)
 
 
@@ -105,7 +106,7 @@ def count_unsolved(run, status):
 
 
 @compiled
-def find_pivots(m, h):
+def halve_or_replan(m, h):
     """After a matrix without good pivots: a shorter step if it was met midway, else, or in vain, other pivots."""
     rule = m.stepping.rule
     if rule.midway == 1 and (rule.replanned == 1 or m.run.retried < HALVINGS):

@@ -22,9 +22,9 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import MIDDLE
-from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.products import add_mass_times, inertia_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.stepping.row_cache import forget_jacobian
 
 SOLVED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved. Errors of iterations add up over
@@ -201,7 +201,7 @@ def search_line(problem, point, linear, stepping, h, before):
             rule.searched = GIVEN_UP
         return
     rule.searched = SEARCHED
-    rule.linearised = 0
+    forget_jacobian(rule)
     if problem.call_drift != 0:
         stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
     y_end, move = reals(point.at_y_end, point.n), reals(rule.at_move, point.n)

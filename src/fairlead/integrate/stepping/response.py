@@ -32,12 +32,12 @@ def error_of_peak(point, matrices, contacts, h, z, over):
 
     Of several bodies that machine z holds the one that is moved most counts: which is named first is chance.
     """
-    weight, inertia = reals(point.at_weight, point.n), reals(contacts.at_held_inertia, contacts.n_zones)[z]
-    bodies = indices(contacts.at_body_starts, contacts.n_zones + 1)
+    weight, inertia = reals(point.at_weight, point.n), reals(contacts.at_held_inertia, contacts.n_machines)[z]
+    bodies = indices(contacts.at_body_starts, contacts.n_machines + 1)
     position = indices(contacts.at_body_position, contacts.n_body_speed)
     speed, largest = indices(contacts.at_body_speed, contacts.n_body_speed), 0.0
     if bodies[z] == bodies[z + 1] or position[bodies[z]] < 0 or inertia <= 0.0:
-        return over / weight[indices(contacts.at_hold_row, contacts.n_zones)[z]]
+        return over / weight[indices(contacts.at_hold_row, contacts.n_machines)[z]]
     for e in range(bodies[z], bodies[z + 1]):
         time = min(h, response_of(matrices, position[e], speed[e], inertia))
         largest = max(largest, over * time * time / (inertia * weight[position[e]]))
@@ -50,12 +50,12 @@ def error_of_speed(point, matrices, contacts, h, z, most, lasting):
 
     Where a stiffness holds back, it takes the force up within the response time. Of several bodies as above.
     """
-    weight, inertia = reals(point.at_weight, point.n), reals(contacts.at_held_inertia, contacts.n_zones)[z]
-    bodies = indices(contacts.at_body_starts, contacts.n_zones + 1)
+    weight, inertia = reals(point.at_weight, point.n), reals(contacts.at_held_inertia, contacts.n_machines)[z]
+    bodies = indices(contacts.at_body_starts, contacts.n_machines + 1)
     position = indices(contacts.at_body_position, contacts.n_body_speed)
     speed, largest = indices(contacts.at_body_speed, contacts.n_body_speed), 0.0
     if bodies[z] == bodies[z + 1] or inertia <= 0.0:
-        return 0.5 * most * lasting / (h * weight[indices(contacts.at_hold_row, contacts.n_zones)[z]])
+        return 0.5 * most * lasting / (h * weight[indices(contacts.at_hold_row, contacts.n_machines)[z]])
     for e in range(bodies[z], bodies[z + 1]):
         x, error = position[e], 0.5 * most * lasting / (inertia * weight[speed[e]])
         if x >= 0:

@@ -13,7 +13,7 @@ violated: the residual of the whole decides, and where it does not pass, J and M
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import KNOWN_ZONES
+from fairlead.integrate.codes import DONE, KNOWN_ZONES
 from fairlead.integrate.linear.condensed import factorise_marked, mark
 from fairlead.integrate.linear.perturbed_pivots import substitute
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
@@ -30,36 +30,36 @@ SPEED_ROUNDING = 1e-14
 def learn_rows(problem, matrices, stepping):
     """Keep the rows of J and M that machines hold, in the zones in force; J and M are those of these zones."""
     exchange = stepping.exchange
-    zones, own = indices(problem.at_zones, problem.n_zones), indices(exchange.at_own_row, problem.n_zones)
+    zones, own = indices(problem.at_zones, problem.n_machines), indices(exchange.at_own_row, problem.n_machines)
     known = indices(exchange.at_known, exchange.n_known)
-    copy(zones, indices(exchange.at_zones_linearised, problem.n_zones))
-    listed = indices(exchange.at_exchanged_machines, problem.n_zones)
-    kind = indices(stepping.contacts.at_own_kind, problem.n_zones)
+    copy(zones, indices(exchange.at_zones_linearised, problem.n_machines))
+    listed = indices(exchange.at_exchanged_machines, problem.n_machines)
+    kind = indices(stepping.contacts.at_own_kind, problem.n_machines)
     of_kind = indices(exchange.at_known_of_kind, exchange.n_known)
     exchange.n_exchanged = 0
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         if own[z] < 0 or zones[z] < 0 or zones[z] >= KNOWN_ZONES:
             continue
         listed[exchange.n_exchanged] = z
         exchange.n_exchanged += 1
-        place = zones[z] * problem.n_zones + z
+        place = zones[z] * problem.n_machines + z
         if known[place] > 0 and problem.linear == 1:
             continue
         known[place] = max(known[place], ROW)
-        of_kind[zones[z] * problem.n_zones + kind[z]] = z + 1
+        of_kind[zones[z] * problem.n_machines + kind[z]] = z + 1
         move_row(matrices, exchange, z, z, True)
 
 
 @compiled
 def move_row(matrices, exchange, z, like, learn):
     """Keep the row of machine z for the zone it is in, or put into J and M what was kept of machine `like`."""
-    zone = indices(exchange.at_zones, exchange.n_zones)[z]
-    starts = indices(exchange.at_own_slope_starts, exchange.n_zones + 1)
+    zone = indices(exchange.at_zones, exchange.n_machines)[z]
+    starts = indices(exchange.at_own_slope_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
     values = reals(matrices.at_jacobian, matrices.n_jacobian)
     kept = reals(exchange.at_known_slopes, KNOWN_ZONES * exchange.n_own_slopes)
     move_entries(starts, entries, values, kept, z, zone * exchange.n_own_slopes + starts[like], learn)
-    starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
+    starts = indices(exchange.at_own_mass_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_masses, exchange.n_own_masses)
     values = reals(matrices.at_mass, matrices.n_mass)
     kept = reals(exchange.at_known_masses, KNOWN_ZONES * exchange.n_own_masses)
@@ -81,15 +81,15 @@ def move_entries(starts, entries, values, kept, z, place, learn):
 def row_of(problem, stepping, z):
     """The machine whose row is known for the zone of machine z: itself, or one like it, or -1."""
     exchange = stepping.exchange
-    zone = indices(problem.at_zones, problem.n_zones)[z]
-    if zone < 0 or zone >= KNOWN_ZONES or indices(exchange.at_own_row, problem.n_zones)[z] < 0:
+    zone = indices(problem.at_zones, problem.n_machines)[z]
+    if zone < 0 or zone >= KNOWN_ZONES or indices(exchange.at_own_row, problem.n_machines)[z] < 0:
         return -1
-    if indices(exchange.at_known, exchange.n_known)[zone * problem.n_zones + z] > 0:
+    if indices(exchange.at_known, exchange.n_known)[zone * problem.n_machines + z] > 0:
         return z
     if problem.linear == 0 or (exchange.invalidated & OF_KIND) != 0:
         return -1
-    kind = indices(stepping.contacts.at_own_kind, problem.n_zones)
-    return indices(exchange.at_known_of_kind, exchange.n_known)[zone * problem.n_zones + kind[z]] - 1
+    kind = indices(stepping.contacts.at_own_kind, problem.n_machines)
+    return indices(exchange.at_known_of_kind, exchange.n_known)[zone * problem.n_machines + kind[z]] - 1
 
 
 @compiled
@@ -101,14 +101,14 @@ def take_row(problem, matrices, stepping, z):
     if like != z:
         exchange.assumed |= OF_KIND
         move_row(matrices, exchange, z, z, True)
-        zone = indices(exchange.at_zones, exchange.n_zones)[z]
-        indices(exchange.at_known, exchange.n_known)[zone * exchange.n_zones + z] = ROW
+        zone = indices(exchange.at_zones, exchange.n_machines)[z]
+        indices(exchange.at_known, exchange.n_known)[zone * exchange.n_machines + z] = ROW
 
 
 @compiled
 def note_hold(matrices, exchange, z):
     """1 if the row of machine z has an entry in M; also marks it if that is of a node without mass."""
-    starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
+    starts = indices(exchange.at_own_mass_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_masses, exchange.n_own_masses)
     values = reals(matrices.at_mass, matrices.n_mass)
     columns = indices(exchange.at_own_mass_columns, exchange.n_own_masses)
@@ -117,7 +117,7 @@ def note_hold(matrices, exchange, z):
         if values[entries[e]] != 0.0:
             found = 1
             if differential[columns[e]] == 0:
-                indices(exchange.at_of_massless, matrices.n)[indices(exchange.at_own_row, exchange.n_zones)[z]] = 1
+                indices(exchange.at_of_massless, matrices.n)[indices(exchange.at_own_row, exchange.n_machines)[z]] = 1
                 exchange.massless = 1
     return found
 
@@ -126,15 +126,15 @@ def note_hold(matrices, exchange, z):
 def learn_constants(point, matrices, stepping):
     """Keep the constants of the rows just exchanged or evaluated that do not hold, from the residual b at `y_end`."""
     exchange = stepping.exchange
-    changed = indices(exchange.at_exchanged_machines, exchange.n_zones)
-    zones = indices(exchange.at_zones, exchange.n_zones)
+    changed = indices(exchange.at_exchanged_machines, exchange.n_machines)
+    zones = indices(exchange.at_zones, exchange.n_machines)
     constants = reals(exchange.at_known_constants, exchange.n_known)
     known = indices(exchange.at_known, exchange.n_known)
-    b, own = reals(point.at_b, point.n), indices(exchange.at_own_row, exchange.n_zones)
+    b, own = reals(point.at_b, point.n), indices(exchange.at_own_row, exchange.n_machines)
     holds, kick = indices(exchange.at_holds, point.n), reals(stepping.rule.at_kick, point.n)
     for c in range(exchange.n_exchanged):
         z = changed[c]
-        place = zones[z] * exchange.n_zones + z
+        place = zones[z] * exchange.n_machines + z
         if known[place] == ROW and holds[own[z]] == 0:
             constants[place] = b[own[z]] + kick[own[z]] - linear_part(point, matrices, stepping, z)
             known[place] = CONSTANT
@@ -144,13 +144,13 @@ def learn_constants(point, matrices, stepping):
 def residual_of_row(point, matrices, stepping, z, h):
     """The entry of b in the row of machine z: by the constant, or where it holds by `minus_slip`."""
     exchange = stepping.exchange
-    row = indices(exchange.at_own_row, exchange.n_zones)[z]
+    row = indices(exchange.at_own_row, exchange.n_machines)[z]
     if indices(exchange.at_holds, point.n)[row] == 1:
         return reals(point.at_minus_slip, point.n)[row] / h + linear_part(point, matrices, stepping, z)
-    zone = indices(exchange.at_zones, exchange.n_zones)[z]
+    zone = indices(exchange.at_zones, exchange.n_machines)[z]
     constants = reals(exchange.at_known_constants, exchange.n_known)
     kick = reals(stepping.rule.at_kick, point.n)[row]
-    return constants[zone * exchange.n_zones + z] - kick + linear_part(point, matrices, stepping, z)
+    return constants[zone * exchange.n_machines + z] - kick + linear_part(point, matrices, stepping, z)
 
 
 @compiled
@@ -159,7 +159,7 @@ def linear_part(point, matrices, stepping, z):
     exchange = stepping.exchange
     y, y_end = reals(point.at_y, point.n), reals(point.at_y_end, point.n)
     differential = indices(point.at_differential, point.n)
-    starts = indices(exchange.at_own_slope_starts, exchange.n_zones + 1)
+    starts = indices(exchange.at_own_slope_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
     columns = indices(exchange.at_own_slope_columns, exchange.n_own_slopes)
     values, total = reals(matrices.at_jacobian, matrices.n_jacobian), 0.0
@@ -175,16 +175,16 @@ def rows_are_known(problem, exchange):
     """True if f is linear, and the residual of the rows just exchanged known without it."""
     if problem.linear == 0 or (exchange.invalidated & CONSTANT) != 0 or exchange.driven == 1 or exchange.massless == 1:
         return False
-    changed = indices(exchange.at_exchanged_machines, problem.n_zones)
-    zones = indices(problem.at_zones, problem.n_zones)
-    known, own = indices(exchange.at_known, exchange.n_known), indices(exchange.at_own_row, problem.n_zones)
+    changed = indices(exchange.at_exchanged_machines, problem.n_machines)
+    zones = indices(problem.at_zones, problem.n_machines)
+    known, own = indices(exchange.at_known, exchange.n_known), indices(exchange.at_own_row, problem.n_machines)
     holds, caught, all_known = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n), True
     for c in range(exchange.n_exchanged):
         z = changed[c]
         if holds[own[z]] == 1:
             all_known = all_known and caught[own[z]] == 1
         else:
-            all_known = all_known and known[zones[z] * problem.n_zones + z] == CONSTANT
+            all_known = all_known and known[zones[z] * problem.n_machines + z] == CONSTANT
     return all_known
 
 
@@ -203,9 +203,10 @@ def exchange_rows(problem, linear, stepping, factorised):
     matrices, exchange = linear.matrices, stepping.exchange
     if not find_exchanged(problem, stepping):
         return False
-    changed = indices(exchange.at_exchanged_machines, exchange.n_zones)
-    zones = indices(exchange.at_zones, exchange.n_zones)
-    then, own = indices(exchange.at_zones_linearised, exchange.n_zones), indices(exchange.at_own_row, exchange.n_zones)
+    changed = indices(exchange.at_exchanged_machines, exchange.n_machines)
+    zones = indices(exchange.at_zones, exchange.n_machines)
+    then = indices(exchange.at_zones_linearised, exchange.n_machines)
+    own = indices(exchange.at_own_row, exchange.n_machines)
     holds, caught = indices(exchange.at_holds, exchange.n), indices(exchange.at_caught, exchange.n)
     count = 0
     for c in range(exchange.n_exchanged):
@@ -220,18 +221,19 @@ def exchange_rows(problem, linear, stepping, factorised):
         holds[own[z]] = now
         if factorised:
             count = use_row(linear, exchange, z, count)
-    return not factorised or factorise_marked(linear, count) == 0
+    return not factorised or factorise_marked(linear, count) == DONE
 
 
 @compiled
 def find_exchanged(problem, stepping):
     """List the machines whose zones are not those of J and M; False if the row of one is not known."""
     exchange = stepping.exchange
-    zones, then = indices(problem.at_zones, problem.n_zones), indices(exchange.at_zones_linearised, problem.n_zones)
-    changed = indices(exchange.at_exchanged_machines, problem.n_zones)
-    kinks = indices(stepping.contacts.at_only_kinks, problem.n_zones)
+    zones = indices(problem.at_zones, problem.n_machines)
+    then = indices(exchange.at_zones_linearised, problem.n_machines)
+    changed = indices(exchange.at_exchanged_machines, problem.n_machines)
+    kinks = indices(stepping.contacts.at_only_kinks, problem.n_machines)
     exchange.n_exchanged = 0
-    for z in range(problem.n_zones):
+    for z in range(problem.n_machines):
         if zones[z] != then[z]:
             if kinks[z] == 1 and problem.linear == 0:
                 then[z] = zones[z]
@@ -247,12 +249,12 @@ def find_exchanged(problem, stepping):
 def use_row(linear, exchange, z, count):
     """Mark the columns of the core that the row of machine z is in, `count` are marked; how many then are."""
     matrices, core, factors = linear.matrices, linear.core, linear.factors
-    starts = indices(exchange.at_own_slope_starts, exchange.n_zones + 1)
+    starts = indices(exchange.at_own_slope_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
     values, used = reals(matrices.at_jacobian, matrices.n_jacobian), reals(core.at_jacobian_used, matrices.n_jacobian)
     column = indices(core.at_jacobian_column, matrices.n_jacobian)
     count = use_entries(factors, starts, entries, values, used, column, z, count)
-    starts = indices(exchange.at_own_mass_starts, exchange.n_zones + 1)
+    starts = indices(exchange.at_own_mass_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_masses, exchange.n_own_masses)
     values, used = reals(matrices.at_mass, matrices.n_mass), reals(core.at_mass_used, matrices.n_mass)
     return use_entries(factors, starts, entries, values, used, indices(core.at_mass_column, matrices.n_mass), z, count)
@@ -279,8 +281,8 @@ def solve_exchanged(problem, point, linear, stepping, h):
         field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
     n = core.n_core
     x, place = reals(core.at_core_x, n), indices(factors.at_row_place, problem.n)
-    changed = indices(exchange.at_exchanged_machines, problem.n_zones)
-    own = indices(exchange.at_own_row, problem.n_zones)
+    changed = indices(exchange.at_exchanged_machines, problem.n_machines)
+    own = indices(exchange.at_own_row, problem.n_machines)
     for k in range(n):
         x[k] = 0.0
     for c in range(exchange.n_exchanged):
@@ -301,12 +303,24 @@ def solve_exchanged(problem, point, linear, stepping, h):
 
 
 @compiled
+def forget_jacobian(rule):
+    """Have J and M evaluated anew before the next solve. Another h or theta does not need it: only W is factorised.
+
+    It is forgotten after a settlement (history.py); where a residual falls too slowly, or a step took more than two
+    solves (theta_step.judge_residual); in a line search (residual.py); where rows of the cache were wrong (here); and
+    where the rows of a zone are in no cache, or W is a full matrix (linearise.py). A part that is cut out or given back
+    begins with none (parts.py).
+    """
+    rule.linearised = 0
+
+
+@compiled
 def invalidate_assumed(stepping):
     """The laws say otherwise than the rows of before: evaluate all, and rely on those no more."""
     exchange = stepping.exchange
     exchange.invalidated |= exchange.assumed
     exchange.assumed = 0
-    stepping.rule.linearised = 0
+    forget_jacobian(stepping.rule)
     forget_rows(exchange)
 
 

@@ -27,7 +27,7 @@ from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.stepping.limit_violation import unseen_force, unseen_slip
 from fairlead.integrate.stepping.located_step import add_error_of_forces, error_of_located
 
-STILL = 1e-2
+NOTHING_MOVES = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the second difference of a holding
 force counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
 UNEVEN = 4.0
@@ -135,10 +135,10 @@ def keep_larger(point, size, worst, other):
 
 @compiled
 def anything_moves(point, rule):
-    """True if a controlled unknown changes in the step by more than STILL of its weight."""
+    """True if a controlled unknown changes in the step by more than NOTHING_MOVES of its weight."""
     y, y_end, weight = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_weight, point.n)
     controlled = indices(rule.at_controlled, point.n)
     found = False
     for k in range(point.n):
-        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > STILL * weight[k])
+        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > NOTHING_MOVES * weight[k])
     return found

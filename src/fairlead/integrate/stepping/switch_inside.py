@@ -13,15 +13,16 @@ at the switch misses nothing, so where the error counts the step is taken again 
                     at the start of the step.
 
 Laws that jump are in jump_at_end.py and jump_inside.py, what has risen and fallen again by the end of a step in
-passed_over.py. A function `find_...` leaves what it finds: the place in `t_cut`, the unknown in `worst`.
+passed_over.py. `find_missed_impulse` leaves the place in `t_cut`, and that of a kink in `t_kink`; what it asks returns
+a share of the step, 1 where nothing is found. The unknown that is due to it goes to `worst`.
 """
 
 from __future__ import annotations
 
-from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.meters import inertia_of
+from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.stepping.jump_at_end import zero_of_guard
-from fairlead.integrate.stepping.response import error_of_speed, response_of
+from fairlead.integrate.stepping.other_zones import forces_in_zones, speed_off
+from fairlead.integrate.stepping.response import error_of_speed
 
 AT_ONCE = 1e-2
 """A switch within this share s of a step happens at its start. A turn misses (a - b) s h, a hundredth of what one
@@ -38,8 +39,8 @@ as 10 kN; at a millionth as 10 N."""
 @compiled
 def forget_switches(contacts):
     """Before a step: nothing has switched in it."""
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
     for k in range(contacts.n_switched):
         after[switched[k]] = 0.0
     contacts.n_switched = 0
@@ -51,14 +52,14 @@ def note_switches(guards, stepping):
     exchange, contacts = stepping.exchange, stepping.contacts
     fired, machine, hold_row = (
         indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards),
-        indices(contacts.at_hold_row, exchange.n_zones),
+        indices(contacts.at_hold_row, exchange.n_machines),
     )  # fmt: skip
     zones, before, holds = (
-        indices(exchange.at_zones, exchange.n_zones), indices(contacts.at_zones_at_start, exchange.n_zones),
+        indices(exchange.at_zones, exchange.n_machines), indices(contacts.at_zones_at_start, exchange.n_machines),
         indices(exchange.at_holds, exchange.n),
     )  # fmt: skip
-    switched = indices(contacts.at_switched, exchange.n_zones)
-    after = reals(contacts.at_switched_after, exchange.n_zones)
+    switched = indices(contacts.at_switched, exchange.n_machines)
+    after = reals(contacts.at_switched_after, exchange.n_machines)
     for k in range(guards.n_fired):
         i, z = fired[k], machine[fired[k]]
         if z < 0 or after[z] > 0.0 or zones[z] != before[z] or (hold_row[z] >= 0 and holds[hold_row[z]] == 1):
@@ -75,11 +76,10 @@ def find_missed_impulse(problem, point, matrices, stepping, h):
     """True if a switch inside the step makes an error that counts; where the step should end, in `t_cut`."""
     rule = stepping.rule
     turn = find_turn(point, matrices, stepping.contacts, h)
-    other = find_other_force(problem, point, matrices, stepping, h)
+    other, kink = find_other_force(problem, point, matrices, stepping, h)
     first = min(turn, other)
     rule.t_cut = point.t + first * h
-    kink = find_kink(stepping)
-    if other == first and other == (1.0 - SHORT_OF) * kink and kink < 1.0:
+    if other <= turn and kink < 1.0:
         rule.t_kink = point.t + kink * h
         if kink < AT_ONCE:
             rule.t_cut = point.t + 2.0 * kink * h
@@ -89,10 +89,10 @@ def find_missed_impulse(problem, point, matrices, stepping, h):
 @compiled
 def find_turn(point, matrices, contacts, h):
     """The share of the step after which a slip turned round, of the first whose error counts; 1 without one."""
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
-    hold_row = indices(contacts.at_hold_row, contacts.n_zones)
-    inertia = reals(contacts.at_held_inertia, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
+    hold_row = indices(contacts.at_hold_row, contacts.n_machines)
+    inertia = reals(contacts.at_held_inertia, contacts.n_machines)
     y, y_end = reals(point.at_y, point.n), reals(point.at_y_end, point.n)
     first = 1.0
     for k in range(contacts.n_switched):
@@ -115,9 +115,10 @@ def find_kink(stepping):
     A step that goes over a kink on purpose (trial.step_over_kink) has none, for it is implicit.
     """
     contacts = stepping.contacts
-    switched = indices(contacts.at_switched, contacts.n_zones)
-    after = reals(contacts.at_switched_after, contacts.n_zones)
-    hold_row, kinks = indices(contacts.at_hold_row, contacts.n_zones), indices(contacts.at_only_kinks, contacts.n_zones)
+    switched = indices(contacts.at_switched, contacts.n_machines)
+    after = reals(contacts.at_switched_after, contacts.n_machines)
+    hold_row = indices(contacts.at_hold_row, contacts.n_machines)
+    kinks = indices(contacts.at_only_kinks, contacts.n_machines)
     first = 1.0
     for k in range(contacts.n_switched):
         z = switched[k]
@@ -128,39 +129,24 @@ def find_kink(stepping):
 
 @compiled
 def find_other_force(problem, point, matrices, stepping, h):
-    """The share of the step after which a law without a force of its own first switched, if the error counts; or 1."""
+    """The share of the step after which a law without a force of its own first switched, if the error counts; or 1.
+
+    And the place of that switch if it is the kink of a table, else 1.
+    """
     contacts = stepping.contacts
-    switched, after = indices(contacts.at_switched, problem.n_zones), reals(contacts.at_switched_after, problem.n_zones)
-    hold_row, first, last = indices(contacts.at_hold_row, problem.n_zones), find_kink(stepping), 0.0
-    if first < 1.0:
-        last = first
+    switched = indices(contacts.at_switched, problem.n_machines)
+    after = reals(contacts.at_switched_after, problem.n_machines)
+    hold_row, kink = indices(contacts.at_hold_row, problem.n_machines), find_kink(stepping)
+    first, last = kink, kink if kink < 1.0 else 0.0
     for k in range(contacts.n_switched):
         s = after[switched[k]]
         if hold_row[switched[k]] < 0 and s >= AT_ONCE:
             first, last = min(first, s), max(last, s)
     if first == 1.0:
-        return 1.0
-    zones, kept, before = (
-        indices(problem.at_zones, problem.n_zones), indices(contacts.at_zones_probed, problem.n_zones),
-        indices(contacts.at_zones_at_start, problem.n_zones),
-    )  # fmt: skip
-    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
-    copy(zones, kept)
-    copy(before, zones)
-    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_f))
-    copy(kept, zones)
-    problem.rhs += 2
-    f_new, f_old = reals(point.at_x, problem.n), reals(point.at_f, problem.n)
-    weight = reals(point.at_weight, problem.n)
-    position = indices(problem.at_position_of, problem.n)
-    for v in range(problem.n):
-        x = position[v]
-        if x < 0 or f_old[v] == f_new[v]:
-            continue
-        inertia = inertia_of(matrices, v)
-        if inertia > 0.0:
-            error = 0.5 * last * h * abs(f_old[v] - f_new[v]) / inertia
-            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
-                point.worst = v
-                return (1.0 - SHORT_OF) * first
-    return 1.0
+        return 1.0, 1.0
+    forces_in_zones(problem, point, contacts, point.t, point.at_y, contacts.at_zones_at_start)
+    off = speed_off(problem, point, matrices, last * h, 2.0)
+    if off < 0:
+        return 1.0, 1.0
+    point.worst = off
+    return (1.0 - SHORT_OF) * first, kink if first == kink else 1.0

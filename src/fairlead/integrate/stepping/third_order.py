@@ -15,17 +15,19 @@ is not in the formula, and h^2 times the second derivative of such a motion is n
     W (e/2) = f1 - f0 + 4 c            W (d/2) = q/3 - J e/12 - 2 c/3
 
 f is linear enough for that inside a step, whose zones are frozen; q tells what depends on time or is curved. Contacts
-that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12:
-never by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away,
-where the midpoint rule leaves it ringing for ever; a wave of h omega = 0.3 gets out of phase by 7e-5 in a step for
-2e-3. (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of
-the step in place of differences over several steps, so that it survives a switch: of our own.)
+that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12: never
+by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away, where the
+midpoint rule leaves it ringing for ever; a wave of h omega = 0.3 gets out of phase by 7e-5 in a step for 2e-3. Where
+friction falls and switches are inside steps (`damps`), a third solve (`damp_end`) adds w^4/48 with w = z/(1 - z/2): the
+factor is then zero where z is large (jump_inside.py). (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra,
+Numer. Math. 8:376, 1966. With the matrix of the step in place of differences over several steps, so that it survives a
+switch: of our own.)
 """
 
 from __future__ import annotations
 
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
-from fairlead.integrate.linear.systems import solve
+from fairlead.integrate.linear.systems import solve_motion
 from fairlead.integrate.memory.foreign import compiled, field_at, indices, reals
 from fairlead.integrate.stepping.residual import differs, read_at_instant, read_on_chord, weigh_ends
 
@@ -34,15 +36,14 @@ from fairlead.integrate.stepping.residual import differs, read_at_instant, read_
 def refine_end(problem, point, linear, stepping, h):
     """Move the end of a step of the midpoint rule by its error; forces stay the means over the step they are."""
     move_by_error(problem, point, linear, stepping, h)
-    linear.core.skip_meters = 0
     if problem.n_quadratures > 0:
-        meter_step(problem, point, h)
+        add_rise_of_quadratures(problem, point, h)
 
 
 @compiled
 def move_by_error(problem, point, linear, stepping, h):
     """Move the end of a step by its error, in all unknowns but the quadratures."""
-    matrices, core, exchange = linear.matrices, linear.core, stepping.exchange
+    matrices, exchange = linear.matrices, stepping.exchange
     n = problem.n
     kick, first, second = (
         reals(stepping.rule.at_kick, n), reals(stepping.rule.at_kick_first, n), reals(stepping.rule.at_kick_second, n),
@@ -53,12 +54,11 @@ def move_by_error(problem, point, linear, stepping, h):
     moving, chord_defect = indices(problem.at_differential, n), reals(point.at_error_vector, n)
     find_chord_defect(problem, point, h)
     find_forces_at_ends(problem, point, stepping.rule, h)
-    core.skip_meters = 1
     for k in range(n):
         b[k] = f1[k] - f0[k] + 4.0 * chord_defect[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
         twelfth[k] = b[k] / 6.0 if moves else 0.0
@@ -69,7 +69,7 @@ def move_by_error(problem, point, linear, stepping, h):
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     if stepping.rule.damps == 1:
         damp_end(problem, point, linear, stepping)
     for k in range(n):
@@ -92,7 +92,7 @@ def damp_end(problem, point, linear, stepping):
     for k in range(n):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
-    solve(linear, point.at_b)
+    solve_motion(linear, point.at_b)
     for k in range(n):
         b[k] += half_moved[k]
 
@@ -138,9 +138,9 @@ def follow_surfaces(problem, point, exchange, h):
 def find_forces_at_ends(problem, point, rule, h):
     """Into `x` and `f`: f at the start and at the end of the step, in its zones and with its forces.
 
-    Forces are means over the step. Where switches are landed on, those of the start balance there, and so the end has
-    as much more than the mean as the start has less. A law that is curved in both a force and a motion asks for that:
-    its cross term is of the order of q.
+    Forces are means over the step. Where steps end at every switch, those of the start balance there, and so the end
+    has as much more than the mean as the start has less. A law that is curved in both a force and a motion asks for
+    that: its cross term is of the order of q.
     """
     n = problem.n
     y, y_end = reals(point.at_y, n), reals(point.at_y_end, n)
@@ -156,7 +156,7 @@ def find_forces_at_ends(problem, point, rule, h):
 
 
 @compiled
-def meter_step(problem, point, h):
+def add_rise_of_quadratures(problem, point, h):
     """The rise of the quadratures, from the rates at the mean of the way taken, (y0 + y1)/2 - e/12.
 
     The mean of a motion that is given is a sixth of what it is at the ends and two thirds of what it is in the middle.

@@ -10,28 +10,28 @@ A step is repeated, in the order in which these are looked for,
 
     in the zones of its end (`finish_inside`)         in the zones of its start (`finish_located`)
     a matrix without good pivots                      a matrix without good pivots
-    a law that jumps at a limit the step reaches      an error above one
-    zones, or an end, that are not found              a guard that fires at the start
-    an error above one                                a switch inside, at which the end is too rough
-    a switch inside, whose impulse would be missed
+    a law that jumps at a limit the step reaches      an end that is not found (by `finish_inside`)
+    zones, or an end, that are not found              contacts that hold and slip at the start: that is settled
+    an error above one                                an error above one
+    a switch inside, whose impulse would be missed    a guard that was above zero from the start: that is settled
+                                                      a switch inside, at which the interpolant is too rough
 
-repeated.py does that. Three things are not repeated: the loop finds other pivots; it takes the step
-with the whole problem where a machine changes that is shared with what rests (a rim); the start is settled where a law
-jumps there, or where contacts that hold still slip.
+repeated.py does that; the last two on the right are as of `rodas` (events/given_up.py, one_step.py). In three cases it
+is no shorter step that follows: the loop finds other pivots; it takes the step with the whole problem where a machine
+changes that is shared with what rests (a rim); the start is settled, also where a law jumps there.
 """
 
 from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import BUFFER_FULL, GO_ON, MIDDLE, TRY, WIDEN
+from fairlead.integrate.codes import BUFFER_FULL, DONE, GO_ON, INACCURATE, JUMPS, MIDDLE, TRY, WIDEN
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
 from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose, smallest_step
 from fairlead.integrate.events.settling import log_changes
-from fairlead.integrate.linear.systems import DONE, INACCURATE
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import piece_is_rough, take_piece
@@ -46,8 +46,8 @@ from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     blame,
     end_at_switch,
-    find_pivots,
     find_switch_passed,
+    halve_or_replan,
     halve_unsolved,
     jump_at_start,
     localise_jump,
@@ -55,14 +55,14 @@ from fairlead.integrate.stepping.repeated import (
     settle_jump,
 )
 from fairlead.integrate.stepping.step_error import find_error, keep_larger
-from fairlead.integrate.stepping.theta_step import JUMPS, give_back_zones, take_theta_step
+from fairlead.integrate.stepping.theta_step import give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 
 
 @compiled
 def attempt_stepping(m):
     """One trial step: repeated with a shorter one, or accepted to its end."""
-    run, point, core, rule = m.run, m.point, m.linear.core, m.stepping.rule
+    run, point, rule = m.run, m.point, m.stepping.rule
     spent = over_budget(run, m.recorder)
     if spent != GO_ON:
         return spent
@@ -74,15 +74,13 @@ def attempt_stepping(m):
         arrive_at_instant(run, point, m.events.guards)
         m.events.settling.passes, rule.instant = 0, 1
         return GO_ON
-    core.skip_meters = 1
     rule.theta_now = min(rule.least_theta + rule.theta_raise, 1.0)
     if point.t < rule.t_kink < point.t + h:
         h = step_over_kink(run, point, rule, h)
     run.h = h
     status = take_theta_step(m, h)
-    core.skip_meters = 0
     if status == INACCURATE:
-        return find_pivots(m, h)
+        return halve_or_replan(m, h)
     rule.replanned = 0
     return finish_located(m, h) if status == DONE and rule.locates == 1 else finish_inside(m, h, status)
 
@@ -103,7 +101,7 @@ def finish_inside(m, h, status):
         if status == JUMPS:
             status = solve_in_zones(m, h)
             if status == INACCURATE:
-                return find_pivots(m, h)
+                return halve_or_replan(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
     if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
@@ -121,7 +119,10 @@ def finish_inside(m, h, status):
         return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
     if exchange.massless == 1:
         end_massless(problem, point, linear, exchange, h)
-    accept_step(m, h)
+    accept_step(m, h, False)
+    show_inside(m)
+    if rule.localising > 0:
+        settle_at_end(m)
     return GO_ON
 
 
@@ -143,12 +144,8 @@ def finish_located(m, h):
         return mend_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and piece_is_rough(m, h):
         return take_piece(m, h)
-    recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
-    rule.failed = max(rule.failed - 1, 0)
-    recorder.meters_off = 1 if problem.n_quadratures > 0 else 0
-    repeated = run.retried > 0
-    accept(m, h, found == CROSSING)
-    choose_next_step(run, rule, h, repeated)
+    recorder.quadratures_off = 1 if problem.n_quadratures > 0 else 0
+    accept_step(m, h, found == CROSSING)
     remember_middle(point, rule, h)
     show_inside(m)
     return GO_ON
@@ -156,7 +153,10 @@ def finish_located(m, h):
 
 @compiled
 def end_located(m, h):
-    """Move the end of a step by the error of its rule, and to where laws balance; the size of its error."""
+    """Move the end of a step by the error of its rule, and to where laws balance; the size of its error.
+
+    theta is 1/2 here: in the zones of the start none cycle, and no kink is stepped over.
+    """
     problem, point, linear, exchange = m.problem, m.point, m.linear, m.stepping.exchange
     refine_end(problem, point, linear, m.stepping, h)
     error = find_error(m, h)
@@ -185,39 +185,43 @@ def step_over_kink(run, point, rule, h):
 
 
 @compiled
-def accept_step(m, h):
-    """To the end of the step; how long the next is."""
+def accept_step(m, h, crossed):
+    """Accept the step up to its crossing or its end; how long the next is to be."""
     run, recorder, rule = m.run, m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > 1e-3 else 0.0
     repeated = run.retried > 0
-    accept(m, h, False)
+    accept(m, h, crossed)
     if run.adaptive == 1:
         choose_next_step(run, rule, h, repeated)
-    show_inside(m)
-    if rule.localising > 0:
-        run.crossed = 1
-        m.events.guards.n_fired = 0
-        rule.localising = 0
+
+
+@compiled
+def settle_at_end(m):
+    """Have the end of an accepted step settled, at which a law jumps."""
+    m.run.crossed = 1
+    m.events.guards.n_fired = 0
+    m.stepping.rule.localising = 0
 
 
 @compiled
 def solve_in_zones(m, h):
     """Take the step that ends at a jump once more, in the zones of its start: it was given up there, not yet solved."""
-    core, rule = m.linear.core, m.stepping.rule
-    core.skip_meters, rule.frozen = 1, 1
+    rule = m.stepping.rule
+    rule.frozen = 1
     status = take_theta_step(m, h)
-    core.skip_meters, rule.frozen = 0, 0
+    rule.frozen = 0
     return status
 
 
 @compiled
 def rim_changed(settling, contacts):
     """True if the step changed a machine that keeps the rest of the problem at rest."""
-    zones, before = indices(settling.at_zones, settling.n_zones), indices(contacts.at_zones_at_start, settling.n_zones)
-    rim, found = indices(settling.at_rim, settling.n_zones), False
-    for z in range(settling.n_zones):
+    zones = indices(settling.at_zones, settling.n_machines)
+    before = indices(contacts.at_zones_at_start, settling.n_machines)
+    rim, found = indices(settling.at_rim, settling.n_machines), False
+    for z in range(settling.n_machines):
         found = found or (rim[z] == 1 and zones[z] != before[z])
     return found
 
@@ -231,8 +235,8 @@ def arrive_with_zones(m):
     switched = settling.passes > 0
     if switched:
         start, m.point.t = m.point.t, run.t_piece
-        at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_zones)
-        copy(at_start, indices(settling.at_zones_before, problem.n_zones))
+        zones_at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_machines)
+        copy(zones_at_start, indices(settling.at_zones_before, problem.n_machines))
         guards.n_fired = 0
         settling.passes = 0
         log_changes(m)

@@ -25,7 +25,7 @@ same move for ever.
 
 from __future__ import annotations
 
-from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.products import add_mass_times, inertia_of
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.interpolant import interpolate
@@ -44,7 +44,7 @@ NODE_DISTANCE = 0.5 * 0.6**0.5
 
 
 @compiled
-def meter_piece(m, h):
+def integrate_quadratures(m, h):
     """Write the quadratures at the end of the piece [t, t + cut h] into `y_piece`, and follow it inside.
 
     Inside the piece the dense output becomes the cubic with the rates of the three nodes.
@@ -143,24 +143,13 @@ def share_of(run, point):
 
 
 @compiled
-def judge_meters(run, point, recorder):
-    """Set `meters_off` if the method itself finds a quadrature wrong in this step by its share of OFF."""
+def judge_quadratures(run, point, recorder):
+    """Set `quadratures_off` if the method itself finds a quadrature wrong in this step by its share of OFF."""
     error, quadrature = reals(point.at_error_vector, point.n), indices(point.at_quadrature, point.n)
     weight = reals(point.at_weight, point.n)
     y = reals(point.at_y_end, point.n)
     share = share_of(run, point)
-    recorder.meters_off = 0
+    recorder.quadratures_off = 0
     for k in range(point.n):
         if quadrature[k] == 1 and abs(error[k]) > share * weight[k] * max(LEAST_PASSED, abs(y[k])):
-            recorder.meters_off = 1
-
-
-@compiled
-def inertia_of(matrices, k):
-    """The entry of M on the diagonal of column k."""
-    starts, rows = indices(matrices.at_mass_starts, matrices.n + 1), indices(matrices.at_mass_rows, matrices.n_mass)
-    mass, found = reals(matrices.at_mass, matrices.n_mass), 1.0
-    for p in range(starts[k], starts[k + 1]):
-        if rows[p] == k:
-            found = mass[p]
-    return found
+            recorder.quadratures_off = 1
