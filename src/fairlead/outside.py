@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 NO_GRID = 1e300
 """A grid of rows with nothing but its first point: rows are read by `get`."""
 NEAR_END = 1e-9
-"""Share of the end of the span, or of the span, that no goal may be nearer to: runs land on their ends a little early."""
+"""Share of the end of the span, or of the span, that no goal may be nearer to: a run lands on its end a bit early."""
 
 
 class Change(NamedTuple):

@@ -32,11 +32,12 @@ def test_the_cause_is_the_bend_whose_friction_the_core_cannot_take(rucking):
         assert one[side] == pytest.approx(recorded, abs=0.05 * TOW)  # a row is up to 10 ms away
     assert sum(one["inboard"]) / sum(one["outboard"]) == pytest.approx(math.exp(MU * math.pi / 2), rel=0.1)  # it swings
     assert one["critical"] == pytest.approx(0.5 * 500 / 508)  # stiction of bulkheads, EA of core and hose
-    assert one["sum"] == pytest.approx(MU * math.pi / 2)
+    assert 3.0 < found["place"] < 3.0 + math.pi / 2
+    assert one["sum"] == pytest.approx(MU * (3.0 + math.pi / 2 - found["place"]))  # from the place on, over 1 m
     told = dict(why(found))
     assert told["Why"].startswith("Friction on the bend. At t = ")
     assert "s the line slides over it with mu = 0.6" in told["Why"]
-    assert "exp(0.942) = 2.57" in told["Capstan"]
+    assert f"exp({one['sum']:.3g}) = {math.exp(one['sum']):.3g}" in told["Capstan"]
     assert told["Way out"].startswith("Below mu = 0.492 on the bend")
 
 
@@ -168,12 +169,53 @@ record: {every: 10 ms, signals: ["line.hose[*].tension", "line.core[*].tension",
 """
 
 
-def test_of_several_bends_the_one_at_the_place_is_told_and_the_sum_of_all_outboard_of_it(tmp_path):
+def test_of_several_bends_the_one_at_the_place_is_told_and_the_sum_from_the_place_on(tmp_path):
     (tmp_path / "two.yaml").write_text(TWO, encoding="utf-8")
     (found,) = verdicts(fairlead.load(tmp_path / "two.yaml").run(out=None))
     assert found["rucks"]
     told = dict(why(found))
     assert told["Why it began"].startswith("Friction on near.")  # it rucks elsewhere later
-    assert "runs over near and far" in told["Capstan"]
-    assert found["cause"]["sum"] == pytest.approx(0.6 * math.pi / 3 + 0.2 * math.pi / 6)
+    assert "runs over far to element" in told["Capstan"]  # it rucks right behind near
+    assert found["cause"]["sum"] == pytest.approx(0.2 * math.pi / 6)
     assert "Below mu = 0.295 on near" in told["Way out"]  # 0.3 * 500/508
+
+
+APART = """
+schema: 1
+name: two_bends_apart
+components:
+  line:
+    type: ArrayModule
+    length: 20 m
+    element: 0.25 m
+    start: 1.5 m
+    tension: 800 N
+    ruck_force: 160 N
+    hose: {mass: 1.6 kg/m, stiffness: 8 kN, damping_ratio: 0.05}
+    core: {mass: 4.2 kg/m, stiffness: 500 kN, damping_ratio: 0.05}
+    bulkhead_friction: {curve: stribeck, stiction: 0.50, coulomb: 0.40, velocity: 20 mm/s}
+  route:
+    type: Route
+    stations:
+      - {type: Bend, name: near, start: 3 m, angle: 60 deg, radius: 1 m, edge: 0.25 m, friction: {near}}
+      - {type: Bend, name: far, start: 7 m, angle: 90 deg, radius: 1 m, friction: {far}}
+  haul: {type: MotionSource, velocity: {ramp: {to: -0.3 m/s, over: 1 s}}}
+  tow: {type: ForceSource, force: 800 N}
+connections: [[haul.flange, line.inboard], [tow.flange, line.outboard], [line.path, route.path]]
+run: {stop: 1.2 s, accuracy: 1e-3}
+record: {every: 10 ms, signals: ["line.hose[*].tension", "line.core[*].tension", "line.hose_node[*].x"]}
+"""
+
+
+@pytest.mark.parametrize(("near", "far", "rucks"), [(0.8, 0.2, True), (0.8, 0.01, True), (0.2, 0.2, False)])
+def test_a_bend_farther_away_is_told_where_the_core_takes_more_than_friction_at_the_one_beside(
+    tmp_path, near, far, rucks
+):
+    """It first rucks beside far, whose friction does not matter, as the three runs show."""
+    text = APART.replace("{near}", str(near)).replace("{far}", str(far))
+    (tmp_path / "apart.yaml").write_text(text, encoding="utf-8")
+    (found,) = verdicts(fairlead.load(tmp_path / "apart.yaml").run(out=None))
+    assert found["rucks"] is rucks
+    if rucks:
+        (said,) = (words for about, words in why(found) if about.startswith("Why"))
+        assert said.startswith("Friction on near.")

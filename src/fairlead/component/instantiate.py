@@ -284,7 +284,9 @@ def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:
         what = f"{ends[0].text} -- {ends[1].text}: a path can only be joined with a path."
         return [Fault(where, what, "A path joins a line with the route it runs along; flanges join bodies.")]
     elif len(paths) > 2:
-        return [Fault(where, f"a path joins two ends, here are {len(paths)}.", "Join one line with one route.")]
+        what = f"a path joins one line with one route, here are {len(paths)} ends: {', '.join(paths)}."
+        way_out = "Write a connection for each line. Two lines in a row take two routes with the same bends."
+        return [Fault(where, what, way_out)]
     elif paths:
         assembly.routings.append((paths[0], paths[1], where))
     if len(refs) > 1:

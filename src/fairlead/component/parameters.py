@@ -78,7 +78,7 @@ def validated(kind: type[Declared], plain: Mapping[str, Any], folder: pathlib.Pa
     return in_force(_values(kind, _validated(kind, plain, folder)))
 
 
-def make(kind: type[Declared], **given: Any) -> Values:
+def make(kind: type[Declared], /, **given: Any) -> Values:
     """Values from numbers in SI and ready parts, tables and waves: for composites, tests and tools."""
     return in_force(_values(kind, _validated(kind, nested(kind, given), pathlib.Path())))
 

@@ -60,7 +60,7 @@ class Scene:
     foreign_code: bool = False
     """Whether FMUs may run; who loads the netlist says so, never the netlist."""
 
-    def make(self, kind: type[Declared], **given: Any) -> Values:
+    def make(self, kind: type[Declared], /, **given: Any) -> Values:
         """Values of a child, numbers in SI. A family head stands for the member the scene chose.
 
         Raises ModelError when settings of the scene contradict each other, and TooManyParts.

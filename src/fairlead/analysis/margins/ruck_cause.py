@@ -31,12 +31,18 @@ def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> d
 
     Tensions [N] on both sides of the device by layer (`inboard`, `outboard`), its `friction` and that of the layers on
     each other (from rest, sliding), `turn` [rad], `critical`: the coefficient up to which the layers hold each other,
-    `devices`: names of the bends from here to the outboard end, `sum` of their mu times angle.
+    `devices`: names of the bends from the place to the outboard end, `sum` of their mu times angle from there on.
     """
     nodes = RecordedLine(result, record).nodes
-    here = _station(record, found)
-    if here is None or nodes is None:
+    if nodes is None:
         return None
+    told = [one for here in _stations(record, found) if (one := _seen(result, record, found, nodes, here))]
+    return next((one for one in told if _explains(one, found)), told[0] if told else None)
+
+
+def _seen(result: Result, record: dict[str, Any], found: Mapping[str, Any], nodes: Any, here: dict[str, Any]
+          ) -> dict[str, Any] | None:  # fmt: skip
+    """What one device does; None where tensions beside it were not recorded."""
     row = max(int(np.searchsorted(result.t, found["t"], side="right")) - 1, 0)
     sides = _sides(nodes[row], here["begin"], here["end"])
     names = [[f"{record['line']}.{layer}[{k}].tension" for layer in record["layers"]] for k in sides]
@@ -45,13 +51,31 @@ def cause(result: Result, record: dict[str, Any], found: Mapping[str, Any]) -> d
     t = recorded_time(result, found["t"])
     inboard, outboard = ([float(result.at(name, t)) for name in each] for each in names)
     bends = [one for one in record["stations"] if _rubs(one) and not one["moves"]
-             and here["begin"] <= one["begin"] < nodes[row][-1]]  # fmt: skip
+             and found["place"] < one["end"] and one["begin"] < nodes[row][-1]]  # fmt: skip
     return {
         "station": called(here), "friction": list(here["friction"]), "turn": _turn(here), "moves": here["moves"],
         "inner_friction": record.get("inner_friction"), "inboard": inboard, "outboard": outboard,
+        "begin": here["begin"], "end": here["end"],
         "critical": _critical(record, here), "devices": [called(one) for one in bends],
-        "sum": sum(one["friction"][1] * _turn(one) for one in bends),
+        "sum": sum(one["friction"][1] * _turn(one, found["place"]) for one in bends),
     }  # fmt: skip
+
+
+def _explains(one: Mapping[str, Any], found: Mapping[str, Any]) -> bool:
+    """True if of the friction there so much stays in the hose as rucks it, or much of that, and compresses the place.
+
+    Friction compresses the hose on the side that has less tension.
+    """
+    if not found["rucks"]:
+        return True
+    sense = _sense(one)
+    beyond = one["begin"] > found["place"] if sense > 0 else one["end"] < found["place"]
+    return not beyond and sense * (one["inboard"][0] - one["outboard"][0]) >= LEAST * found["ruck_force"]
+
+
+def _sense(one: Mapping[str, Any]) -> float:
+    """1 where tension grows inboard, as of a line that is hauled, -1 where it falls."""
+    return math.copysign(1.0, sum(one["inboard"]) - sum(one["outboard"]))
 
 
 def recorded_time(result: Result, t: float) -> float:
@@ -65,16 +89,24 @@ def _rubs(station: Mapping[str, Any]) -> bool:
     return bool(ends and station["curvature"] and station.get("friction"))
 
 
-def _station(record: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The bend in which a place is, or beside which it is: not farther than an element."""
+def _stations(record: Mapping[str, Any], found: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Bends that may be the cause at a place: the one it is in or beside, and those next to it on either side.
+
+    Beside is not farther than an element. Only a verdict that it rucks is due to a bend farther away.
+    """
     place, k = found.get("place"), found["element"]
-    if place is None or len(record["layers"]) != LAYERS or k + 1 >= len(record["places"]):
-        return None
     bends = [one for one in record["stations"] if _rubs(one)]
-    if not bends:
-        return None
+    if place is None or len(record["layers"]) != LAYERS or k + 1 >= len(record["places"]) or not bends:
+        return []
     here: dict[str, Any] = min(bends, key=lambda one: _away(one, place))
-    return here if _away(here, place) <= record["places"][k + 1] - record["places"][k] else None
+    near = [here] if _away(here, place) <= record["places"][k + 1] - record["places"][k] else []
+    if not found["rucks"]:
+        return near
+    inboard = [one for one in bends if one["end"] <= place]
+    outboard = [one for one in bends if one["begin"] >= place]
+    beside = [max(inboard, key=lambda one: one["end"])] if inboard else []
+    beside += [min(outboard, key=lambda one: one["begin"])] if outboard else []
+    return near + [one for one in beside if one not in near]
 
 
 def _away(station: Mapping[str, Any], place: float) -> float:
@@ -90,8 +122,9 @@ def _sides(nodes: Any, begin: float, end: float) -> tuple[int, int]:
     return min(max(inner, 0), last), min(max(outer, 0), last)
 
 
-def _turn(station: Mapping[str, Any]) -> float:
-    return float(station["curvature"] * (station["end"] - station["begin"]))
+def _turn(station: Mapping[str, Any], place: float = -math.inf) -> float:
+    """By how much a bend turns the line from a place in it, or before it, to its outboard end [rad]."""
+    return float(station["curvature"] * (station["end"] - max(station["begin"], place)))
 
 
 def _critical(record: Mapping[str, Any], station: Mapping[str, Any]) -> float | None:
@@ -114,8 +147,8 @@ def why(found: Mapping[str, Any]) -> list[tuple[str, str]]:
     if max(hose) - min(hose) < LEAST * found["ruck_force"]:
         return [("Why", f"Not told: on both sides of {one['station']} the hose has nearly the same tension "
                         f"({_f(hose[0])} and {_f(hose[1])} N), so friction there is not the cause.")]  # fmt: skip
-    first = (f"On {one['station']} the compression differs from element to element; element {found['element']} is the "
-             f"first to pass {figure(found['ruck_force'])} N.")  # fmt: skip
+    first = (f"The compression differs from element to element; element {found['element']} is the first to pass "
+             f"{figure(found['ruck_force'])} N.")  # fmt: skip
     about = "Why" if len(found.get("places") or ()) < 2 else "Why it began"
     said = f"{_friction(one, found['t'])} {_shared(one)} {first}"
     return [(about, said), *_capstan(one, found["element"]), *_way_out(one)]
@@ -134,7 +167,7 @@ def _friction(one: Mapping[str, Any], t: float) -> str:
 
 def _shared(one: Mapping[str, Any]) -> str:
     """Who bears it."""
-    sense = math.copysign(1.0, sum(one["inboard"]) - sum(one["outboard"]))
+    sense = _sense(one)
     hose, core = (sense * (a - b) for a, b in zip(one["inboard"], one["outboard"], strict=True))
     inner, critical = one["inner_friction"], one["critical"]
     limit = ""
@@ -162,8 +195,8 @@ def _capstan(one: Mapping[str, Any], element: int) -> list[tuple[str, str]]:
     if not devices or not one["sum"]:
         return []
     names = devices[0] if len(devices) == 1 else f"{', '.join(devices[:-1])} and {devices[-1]}"
-    return [("Capstan", f"Between the outboard end and element {element} the line runs over {names}. The sum of mu × "
-                        f"angle is {figure(one['sum'])}, which multiplies a steady tension by "
+    return [("Capstan", f"From the outboard end the line runs over {names} to element {element}. The sum of mu × angle "
+                        f"up to there is {figure(one['sum'])}, which multiplies a steady tension by "
                         f"exp({figure(one['sum'])}) = {figure(math.exp(one['sum']))}.")]  # fmt: skip
 
 

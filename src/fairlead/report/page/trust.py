@@ -104,15 +104,19 @@ def _creep(run: dict[str, Any]) -> Iterator[Sentence]:
                        f"A contact that should be stuck moved by at most {number(found['value'])} m/s, in "
                        f"{found['contact']} at {moment(found.get('t', 0.0))} s.{how}")  # fmt: skip
     elif how:
-        yield Sentence("Worst creep", "plain", f"No contact was held.{how}")
+        held = "No contact was held." if "steps" in run else "Not known of a run that was cut off."
+        yield Sentence("Worst creep", "plain", f"{held}{how}")
 
 
 def _accuracy(run: dict[str, Any]) -> Iterator[Sentence]:
     asked = (run.get("settings") or {}).get("accuracy")
     if asked is not None:
+        counts = " How many steps it took is not known of a run that was cut off."
+        if "steps" in run:
+            counts = (f" It took {run['steps']} steps, {run.get('rejected', 0)} were rejected, "
+                      f"{run.get('switches', 0)} zone changes.")  # fmt: skip
         yield Sentence("Accuracy", "plain",
                        f"A relative error of {number(asked)} in each step was allowed. It is a setting, so it has no "
-                       f"tick; a run with a tenth of it shows how far the numbers move. Engine "
-                       f"{run.get('engine', 'unknown')} took {run.get('steps', 0)} steps, {run.get('rejected', 0)} "
-                       f"were rejected, {run.get('switches', 0)} zone changes.",
+                       f"tick; a run with a tenth of it shows how far the numbers move. The engine was "
+                       f"{run.get('engine', 'unknown')}.{counts}",
                        brief=f"accuracy {number(asked)} a step")  # fmt: skip
