@@ -37,7 +37,8 @@ class DeadBandPid(Composite):
 
     Limits: the measured value ends within `inner` to `band` of the reference, not on it. The command jumps by K_p e
     when it begins to rest or to act, and is constant in between if nothing moves. A part that integrates the command
-    itself, as a valve and a cylinder do, would drift on the value that I keeps: leave the integral out there.
+    itself, as a valve and a cylinder do, would drift on the value that I keeps: leave the integral out there. A
+    reference that steps at the instant of a sample is heard at the next one, since a sample is from before a switch.
     """
 
     reference = Input("1", "Value wanted.", signed=True)

@@ -3,6 +3,7 @@
 import functools
 
 import pytest
+import sympy
 from fairlead.components.friction import coulomb  # noqa: F401 (a curve for the contact, known once imported)
 from fairlead.components.friction.hold import Hold
 from fairlead.components.line.core_element import Core
@@ -17,6 +18,7 @@ from fairlead.component import Carries, Component, Law, Parameter, Table, Transl
 from fairlead.component.trace import TraceError, trace
 from fairlead.describe.specimen import specimen
 from fairlead.kernels.dependence import sums
+from fairlead.kernels.in_floats import differs, varies
 from fairlead.kernels.text import KernelText
 
 
@@ -185,3 +187,10 @@ def test_a_law_that_ties_no_speeds_is_refused_where_it_says_that_it_carries():
         TraceError, match=r"zone 'tied' is said to carry 'node' by 'rim', .* by 0; it must be"
     ):
         structure(loose)
+
+
+def test_a_root_of_what_is_below_zero_where_it_is_tried_says_nothing():
+    """An author's law is only asked behind its guard; numbers that it is tried with may lie before it."""
+    a, b = sympy.symbols("a b")
+    assert not varies(sympy.sqrt(a - b - 7), [a])
+    assert not differs(sympy.sqrt(a - b - 7), sympy.sqrt(a - b - 8))

@@ -51,10 +51,12 @@ def _drawn(s: sympy.Symbol) -> Sized:
 
 
 def _valued(expression: sympy.Expr, given: Mapping[sympy.Symbol, Sized]) -> Sized | None:
-    """Value and size, or None where there is no finite one."""
+    """Value and size, or None where there is no finite one, or one that is not real: the root of what is below zero."""
     try:
         value, size = _value(expression, dict(given))
     except (ValueError, OverflowError, ZeroDivisionError, TypeError, KeyError):
+        return None
+    if isinstance(value, complex) or isinstance(size, complex):
         return None
     return (value, size) if math.isfinite(value) and math.isfinite(size) else None
 
