@@ -29,6 +29,7 @@ from fairlead.analysis.record.scene_record import scene_record, zone_record
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.unsettled import with_way_out
 from fairlead.analysis.record.used_up import UsedUp
+from fairlead.analysis.record.went_round import WentRound
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.remarks.remarks import remarks
 from fairlead.analysis.treatments.friction_record import friction_record
@@ -95,7 +96,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       WindUp.of(system, recording.recorded if told else []),
                       RoundedOff.of(system, recording.recorded if told else []),
                       NeverClosed.of(system, recording.recorded if told else [], asked.start),
-                      together, GaveWay(system, asked.start), progress, interruption, event_rows, settings.accuracy,
+                      together, GaveWay(system, asked.start), WentRound(system), progress, interruption, event_rows,
+                      settings.accuracy,
                       peaks)  # fmt: skip
         outcome = integrate(system, asked, watch)
         for controller in outcome.problem.controllers:
@@ -111,7 +113,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
         found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.open_.remarks(),
-                 *watch.gave_way.remarks(), *inexact]
+                 *watch.gave_way.remarks(), *watch.went_round.remarks(), *inexact]
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
@@ -242,7 +244,7 @@ def _summary(outcome: Outcome, watch: Watch, asked: Run, compiled: float, wall: 
         "projected": _projected(outcome, watch.system),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
-        "gave_way": watch.gave_way.plain(),
+        "gave_way": watch.gave_way.plain(), "went_round": watch.went_round.plain(),
         "strains": watch.strains.summary(), "pushes": pushes(watch.extremes, watch.recording.recorded, watch.accuracy),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),
     }  # fmt: skip

@@ -22,6 +22,7 @@ from fairlead.analysis.record.rounded_off import RoundedOff
 from fairlead.analysis.record.step_rows import Batches, Thinning, WholeSteps, on_grid
 from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.used_up import UsedUp
+from fairlead.analysis.record.went_round import WentRound
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
@@ -55,6 +56,7 @@ class Watch:
     open_: NeverClosed
     together: ReleasedTogether | None  # None: steps have no instants in which contacts let go
     gave_way: GaveWay
+    went_round: WentRound
     progress: Callable[[float, float, Any], None] | None
     interruption: Interruption
     event_rows: EventRows | None  # what of events is kept; None: everything
@@ -109,6 +111,7 @@ class Watch:
         if self.together is not None:
             self.together.watch(block.events)
         self.gave_way.watch(block.events)
+        self.went_round.watch(block.events)
         self.creep.watch(block.t, block.values[:, self.creeping])
         self.strains.watch(block.t, block.values)
         self.below.watch(block.values)
@@ -141,6 +144,7 @@ class Watch:
     def finish(self) -> None:
         """Write what still waits; no block follows."""
         self.gave_way.finish()
+        self.went_round.finish()
         if (rest := self.steps.rest()) is not None and len(rest.t):
             self._take_steps(rest)
         if (rest := self.batches.rest()) is not None:

@@ -46,10 +46,10 @@ from fairlead.integrate.events.fast_way import (
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.patterns import remember_pattern
 from fairlead.integrate.events.violators import RISE
-from fairlead.integrate.linear.products import add_mass_times
+from fairlead.integrate.linear.products import add_mass_times, inertia_of
 from fairlead.integrate.linear.systems import solve_watched
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
-from fairlead.integrate.point.controller import weigh
+from fairlead.integrate.point.controller import weigh, weighted_norm
 
 
 @compiled
@@ -231,6 +231,7 @@ def open_level(problem, point, matrices, events):
     slips = reals(loads.at_fast_slip, problem.n_guards)
     find_residual(problem, point, matrices, point.at_x)
     r = reals(point.at_x, n)
+    loads.fastest = max(loads.fastest, acceleration_if_free(problem, point, matrices))
     circle, circle_changed = indices(problem.at_circle, n), indices(loads.at_circle_changed, n)
     for k in range(n):
         circle_changed[k] = 0
@@ -257,6 +258,20 @@ def open_level(problem, point, matrices, events):
         for k in range(n):
             top[k] += r[k]
     loads.level_due = 0
+
+
+@compiled
+def acceleration_if_free(problem, point, matrices):
+    """The largest acceleration, weighted, that the load in x would give bodies that nothing held.
+
+    Where all hold, accelerations are rounding of that one, and tell of no slip.
+    """
+    load, to_weigh = reals(point.at_x, problem.n), reals(point.at_u, problem.n)
+    is_speed = indices(problem.at_is_speed, problem.n)
+    for k in range(problem.n):
+        inertia = inertia_of(matrices, k) if is_speed[k] == 1 else 0.0
+        to_weigh[k] = load[k] / inertia if inertia > 0.0 else 0.0
+    return weighted_norm(point, point.at_u)
 
 
 @compiled
