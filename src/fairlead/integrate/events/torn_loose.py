@@ -30,7 +30,7 @@ ROUNDING = 1e-6
 """Share of the largest slip in a circle below which another is rounding."""
 DYING_OUT = 2e3
 """Share of itself, by the second, that a slip left by rounding loses in a row that holds, twice over."""
-NEVER = 1e300
+NOWHERE = 1e300
 """How far what has no limit is from it."""
 
 
@@ -73,7 +73,7 @@ def find_slips(m):
     slip_at(problem.call_drift, (problem.context, point.t + settling.look, point.at_y_probe, point.at_v))
     now, slip = reals(point.at_x, problem.n), reals(point.at_v, problem.n)
     holding, limit = indices(problem.at_may_hold, guards.n_guards), indices(guards.at_limit_guard, guards.n_guards)
-    least, none, tolerance = NEVER, 0.0, reals(guards.at_guard_tolerance, guards.n_guards)
+    least, none, tolerance = NOWHERE, 0.0, reals(guards.at_guard_tolerance, guards.n_guards)
     for i in range(guards.n_guards):
         if holding[i] > 0 and limit[i] == 0:
             least, none = min(least, RISE * tolerance[i]), max(none, AT_LIMIT * tolerance[i])
@@ -111,10 +111,10 @@ def fire_first(m, c, largest):
         if circle[k] == c and abs(slip[k]) > ROUNDING * largest:
             probe[k] += grows[k] * slip[k] / largest * size
     evaluate_guards(problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    first, fired = NEVER, indices(guards.at_fired, ng)
+    first, fired = NOWHERE, indices(guards.at_fired, ng)
     for i in range(ng):
         first = min(first, way_to_limit(problem, guards, i, c))
-    if first == NEVER:
+    if first == NOWHERE:
         return
     for i in range(ng):
         if way_to_limit(problem, guards, i, c) <= first + TIE:
@@ -124,11 +124,11 @@ def fire_first(m, c, largest):
 
 @compiled
 def way_to_limit(problem, guards, i, c):
-    """How far on its way a force of circle c is when it comes to the limit of guard i; NEVER if it does not."""
+    """How far on its way a force of circle c is when it comes to the limit of guard i; NOWHERE if it does not."""
     row = indices(problem.at_bounded_row, guards.n_guards)[i]
     if row < 0 or indices(problem.at_circle, problem.n)[row] != c:
-        return NEVER
+        return NOWHERE
     here, there = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_probe, guards.n_guards)[i]
     if not there - here > RISE * reals(guards.at_guard_tolerance, guards.n_guards)[i]:
-        return NEVER
+        return NOWHERE
     return -here / (there - here)
