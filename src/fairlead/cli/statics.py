@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 ESTIMATE = "~"
 HOW_FAR_OFF = (
-    "is an estimate, for an array that comes from rest: runs of bundled routes had up to 2.4 times the compression of "
-    "the hose (docs/routes.md, Hose and core). Take the ruck margin from a run."
+    "is an estimate, for an array that comes from rest: runs of bundled scenes had up to 4 times the compression of "
+    "the hose, where bulkheads slip (docs/routes.md, Hose and core). A margin below 4 is no evidence: take it from a "
+    "run."
 )
 
 
