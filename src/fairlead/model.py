@@ -12,15 +12,13 @@ Each stage is made when it is first asked for, and kept.
 
 from __future__ import annotations
 
-import contextlib
 import enum
 import functools
 import os
 import pathlib
-import re
 import time
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
@@ -37,6 +35,7 @@ from fairlead.errors import (
     no_attribute,
     shown,
 )
+from fairlead.found import all_beside, in_order, of_start_and_border, with_origin
 
 if TYPE_CHECKING:
     from fairlead.component.instantiate import Assembly
@@ -175,8 +174,8 @@ class Model:
         faults += unknown_signals(assembly) + unreasonable(self.netlist, self.netlist.run, flat)
         if faults:
             faults += without_echoes(untraceable(flat), faults)
-            if sound and all(block_of(one, self.netlist.texts) in BESIDE for one in self._faults):
-                faults += without_echoes(self._of_start_and_border(assembly, flat), faults)
+            if sound and all_beside(self._faults, self.netlist.texts):
+                faults += without_echoes(of_start_and_border(self.netlist, assembly, flat), faults)
         else:
             self.assembly, self.flattened = _shown_in_a_line(assembly), flat
             try:
@@ -185,27 +184,8 @@ class Model:
             except ModelError as error:
                 faults += error.faults
         if faults:
-            raise ModelError(_with_origin(_in_order(faults), self._overrides))
+            raise ModelError(with_origin(in_order(faults), self._overrides))
         return [*remarks(self.flat), *engine_remarks(self.netlist.run, self.system)]
-
-    def _of_start_and_border(self, assembly: Assembly, flat: FlatModel) -> list[Fault]:
-        """Mistakes in `initial`, `nominal` and `interface`, for which a model is compiled that has others elsewhere."""
-        from fairlead.analysis.statics.start_profile import laid_under_statics
-        from fairlead.outer import interface_faults
-        from fairlead.system.compile import compile, untraceable
-
-        if untraceable(flat):
-            return []
-        found = list[Fault]()
-        try:
-            flat = laid_under_statics(flat)
-            compile(flat)
-        except ModelError as error:
-            found += [one for one in error.faults if one.what.startswith(("initial.", "nominal."))]
-        bare = replace(flat, assembly=replace(assembly, netlist=replace(self.netlist, initial={}, nominal={})))
-        with contextlib.suppress(ModelError):
-            found += interface_faults(self.netlist, assembly.entries, compile(bare))
-        return found
 
     def describe(self, stage: str = "flatten") -> str:
         """What the model has become after a stage: netlist, component, flatten or system. Raises ModelError."""
@@ -316,7 +296,7 @@ class Model:
 
         faults = unknown_signals(self.assembly) + interface_faults(self.netlist, self.assembly.entries, self.system)
         if faults:
-            raise ModelError(_in_order(faults))
+            raise ModelError(in_order(faults))
 
     def _beginning_with(self, settings: RunSettings) -> Model:
         """The model for a run that starts when these settings say: another one if a motion begins there."""
@@ -391,35 +371,10 @@ class Model:
         return as_html(self.netlist)
 
 
-BESIDE = ("run", "record", "limits", "initial", "nominal", "interface")
-"""Blocks of a netlist that say nothing of what the model is made of."""
-
-
-def block_of(fault: Fault, texts: Mapping[str, str]) -> str:
-    """The block of the netlist in which a mistake stands, "" where that is not known."""
-    if fault.where is None or not fault.where.line:
-        return ""
-    above = texts.get(fault.where.file, "").splitlines()[: fault.where.line]
-    return next((key[1] for line in reversed(above) if (key := re.match(r"(\w+)\s*:", line))), "")
-
-
 def _shown_in_a_line(stage: S) -> S:
     """The same stage; its class shows itself in a line from now on, since its fields fill many screens."""
     type(stage).__repr__ = in_a_line  # type: ignore[method-assign]
     return stage
-
-
-def _with_origin(faults: Iterable[Fault], overrides: Mapping[str, str]) -> Iterator[Fault]:
-    """Mistakes; those in a value that was given from outside say which, for they stand where the netlist uses it."""
-    for fault in faults:
-        given = [f"It was given as {name} = {text}." for name, text in overrides.items()
-                 if f"= {text} " in f"{fault.what} " and not _named(name, fault)]  # fmt: skip
-        yield replace(fault, way_out="\n".join([fault.way_out, *given])) if given else fault
-
-
-def _named(name: str, fault: Fault) -> bool:
-    """Whether a mistake names a setting, as a word of its own: `m` is none of `block.mass`."""
-    return re.search(rf"(?<!\w){re.escape(name)}(?!\w)", f"{fault.where} {fault.what}") is not None
 
 
 def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
@@ -437,7 +392,3 @@ def as_text(values: Mapping[str, float | str]) -> dict[str, str]:
     return {name: value if isinstance(value, Setting)
             else Setting(value if isinstance(value, str) else texts.get(str(value), str(value)), GIVEN)
             for name, value in values.items()}  # fmt: skip
-
-
-def _in_order(faults: Iterable[Fault]) -> list[Fault]:
-    return sorted(dict.fromkeys(faults), key=lambda f: (f.where is None, f.where, f.what))
