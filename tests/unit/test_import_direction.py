@@ -47,7 +47,7 @@ ALLOWED = {
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "saved_state", "tuning", "outer",
-        "renewal", "model", "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__",
+        "renewal", "found", "model", "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__",
         "models"}  # fmt: skip
 
 

@@ -130,11 +130,6 @@ class System:
         return machines[machines >= 0]
 
     @property
-    def share_rows(self) -> Integers:
-        """Rows that say how contacts in circles share what they hold."""
-        return np.array(list(self.numbering.share.values()), dtype=np.int64)
-
-    @property
     def circle(self) -> Integers:
         """By row: the number of the circle it lies in, 0 for none (`contact_cycles.numbers`)."""
         numbering, made = self.numbering, np.zeros(self.numbering.n, dtype=np.int64)
