@@ -47,8 +47,8 @@ ALLOWED = {
 }
 # May import all that lies before:
 LAST = {"", "model_page", "result", "engine", "watch", "running", "outside", "saved_state", "tuning", "outer",
-        "renewal", "found", "model", "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli", "__main__",
-        "models"}  # fmt: skip
+        "renewal", "found", "model", "simulate", "statics", "studies", "cases", "testing", "fmu", "view", "cli",
+        "__main__", "models"}  # fmt: skip
 
 
 def source_files() -> dict[str, pathlib.Path]:
