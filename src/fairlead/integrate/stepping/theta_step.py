@@ -83,10 +83,6 @@ SLOW = 0.01
 MOST_SOLVES, MOST_LINEAR_SOLVES = 10, 3
 """Solves without a switch before the step counts as not converging; a linear one needs no more than a refinement."""
 
-NEAREST = 0.1
-"""Share of a step at which a jump is told at the nearest, if others have switched before it: the line to it ends in a
-pattern of zones then that is passed on the way, whose forces may be anything."""
-
 
 @compiled
 def take_theta_step(m, h):
@@ -203,8 +199,6 @@ def switch_zones(m, h):
         copy(indices(contacts.at_zones_probed, contacts.n_machines), indices(contacts.at_zones, contacts.n_machines))
         find_means(m, h)
         place_jump(point, guards, contacts, rule, h)
-        if settling.passes > 1:
-            rule.t_cut = max(rule.t_cut, point.t + NEAREST * h)
         return JUMPS
     if not known:
         put_jumps_right(m, h)
