@@ -33,7 +33,7 @@ from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from fairlead.system.arrays.blocks import Block, Floats, Memory
 from fairlead.system.arrays.shares import Share
 from fairlead.system.assembly.program import Entries
-from fairlead.system.numbering.contact_cycles import REST, ends
+from fairlead.system.numbering.contact_cycles import REST, ends, moved_apart
 from fairlead.system.numbering.unknowns import Numbering
 
 SPEEDS = ("m/s", "rad/s")
@@ -70,6 +70,7 @@ def sharing(
     nodes = {index: k for k, index in enumerate(dict.fromkeys(g for p in numbering.circles for g, _ in p.ends))}
     pairs, coefs = [], []
     zones: list[tuple[int, int, int]] = []
+    apart = set(moved_apart(numbering.circles, numbering.share))
     for pair in numbering.circles:
         block, share, i = place[pair.path]
         (a, coef_a), (b, coef_b) = pair.ends
@@ -77,7 +78,7 @@ def sharing(
         machine = block.machines[i, 0] if len(block.kernel.structure.zones) > 1 else -1
         pairs.append((numbering.own[pair.path, pair.unknown], nodes[a], nodes[b], *at, machine, len(zones)))
         coefs.append((coef_a, coef_b, pair.sense, 1 / inertia(flat, pair.ends)))
-        zones += _zones(block, share, i, pair.unknown)
+        zones += _zones(block, share, i, pair.unknown, told=pair.path not in apart)
     bodies = [(nodes[index], at) for index, at in numbering.share.items()]
     stiff = [1 / (flat.groups[index].mass or 1.0) for index in numbering.share]
     return {
@@ -108,14 +109,17 @@ def _hangs_on(flat: FlatModel, index: int) -> int:
     return FREE if flat.groups[index].free else DRIVEN
 
 
-def _zones(block: Block, share: Share, i: int, unknown: str) -> list[tuple[int, int, int]]:
-    """By zone: 1 if it holds, the first guard on the slip that leads to one that does (or -1), its direction."""
+def _zones(block: Block, share: Share, i: int, unknown: str, *, told: bool) -> list[tuple[int, int, int]]:
+    """By zone: 1 if it holds, the first guard on the slip that leads to one that does (or -1), its direction if `told`.
+
+    Between motions that are given and move apart nothing slides in name: there it is not told.
+    """
     s, kind = block.kernel.structure, block.kernel.variant.type.declaration.zones
     holding = s.holds[unknown]
     stop = stops(block, holding)
     guard = share.guards + i * s.slots
     return [
-        (int(zone in holding), guard + stop[zone][0] if stop.get(zone) else -1, kind.direction(zone))
+        (int(zone in holding), guard + stop[zone][0] if stop.get(zone) else -1, told * kind.direction(zone))
         for zone in s.zones
     ]
 
