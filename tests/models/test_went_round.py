@@ -1,7 +1,8 @@
 """The order of release where held bodies have no slip but rounding, and the remark on one that comes to no end.
 
 Of a circle of contacts the first falls to sliding friction and slips by nothing, since others hold both its sides. Its
-acceleration is rounding, of either sign: taken for a slip that comes back it was caught again, and so on.
+acceleration is rounding, of either sign: taken for a slip that comes back it was caught again, and so on. So it was
+where what is given seemed to stand still beside bodies that accelerate no faster.
 """
 
 from __future__ import annotations
@@ -69,6 +70,30 @@ def test_neither_names_nor_size_decide(simulate, names, size):
     assert [there[f"{one}.x"][-1] for one in ("m1", "md0")] == pytest.approx(
         [here[f"{one}.x"][-1] for one in ("m1", "md0")], rel=1e-5
     )
+
+
+TRAIN = """
+    components:
+      j: {type: Inertia, moment: 0.1 kg*m^2}
+      k: {type: Inertia, moment: 0.2 kg*m^2}
+      g: {type: Gear, ratio: 3}
+      brake: {type: Brake, curve: {curve: coulomb, coulomb: 0.3, stiction: 0.45}, normal_force: 60 N, radius: 0.1 m}
+      clutch: {type: Clutch, curve: {curve: coulomb, coulomb: 0.3, stiction: 0.35}, normal_force: 20 N, radius: 0.1 m}
+      load: {type: TorqueSource, torque: -1.5 N*m}
+      motor: {type: SpeedSource, speed: {sine: {amplitude: 3 rad/s, frequency: 1.3 Hz, phase: 0.4 rad}}}
+    connections: [[j.shaft, brake.shaft, load.shaft, g.a], [g.b, k.shaft, clutch.a], [clutch.b, motor.shaft]]
+    run: {stop: 1.2 s, accuracy: 1e-6}
+"""
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_what_is_given_accelerates_while_the_load_comes_in(simulate, engine):
+    """A motor turns round at a clutch; the brake behind it is overloaded. Ten changes, 178 with a motor that stands."""
+    result = simulate(TRAIN, **{"run.engine": engine})
+    creeps = simulate(TRAIN, **{"friction.method": "binding", "friction.creep": "1e-6 m/s"})
+    assert result["j.angle"][-1] == pytest.approx(creeps["j.angle"][-1], rel=1e-4)
+    assert result.run["switches"] == 10
+    assert result.run["went_round"]["count"] == 0
 
 
 def changes(*of: tuple[float, int]) -> np.ndarray:

@@ -37,7 +37,10 @@ def hardly_changes(point):
 
 @compiled
 def look_along(problem, run, point, events):
-    """Guards at both ends of the way x, and their rates in the fast time there, by the slips of the accelerations."""
+    """Guards at both ends of the way x, and the rates of slips in the fast time there, by the accelerations.
+
+    What is given accelerates as well; so slips are asked a little later, but limits are as they are at this instant.
+    """
     guards, loads = events.guards, events.loads
     n, ng = problem.n, problem.n_guards
     way, y, slope = reals(point.at_x, n), reals(point.at_y, n), reals(point.at_slope, n)
@@ -51,7 +54,7 @@ def look_along(problem, run, point, events):
     largest = max(largest, TIE * loads.fastest)  # what is so much slower than all before is rounding
     d = NUDGE / largest if largest > 0.0 else 1.0
     differential = indices(problem.at_differential, n)
-    tolerance = reals(guards.at_guard_tolerance, ng)
+    tolerance, limit = reals(guards.at_guard_tolerance, ng), indices(guards.at_limit_guard, ng)
     for end in range(2):
         at_g, at_rate = (guards.at_g, loads.at_rate) if end == 0 else (guards.at_g_probe, loads.at_rate_end)
         for k in range(n):
@@ -60,10 +63,10 @@ def look_along(problem, run, point, events):
         for k in range(n):
             if fast[k] == 1:
                 probe[k] = y[k] + d * (slope[k] + end * way[k])
-        evaluate_guards(problem, run, guards, point.t, point.at_y_probe, at_rate)
+        evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe, at_rate)
         g, rate = reals(at_g, ng), reals(at_rate, ng)
         for i in range(ng):
-            rise = rate[i] - g[i]
+            rise = rate[i] - g[i] if limit[i] == 0 else 0.0
             rate[i] = rise / d if abs(rise) > RISE * tolerance[i] else 0.0
 
 

@@ -18,6 +18,7 @@ Slips. In a level of its own, whoever slips since a time s slips by
 
     integral of the rate of its guard over the time of the level
 
+by its acceleration and by that of what is given, above the rounding of what a force that changes would give by itself,
 and is caught where that comes back to zero. In a level above, which takes no time beside it, it cannot be caught; when
 its level is taken off, its slip is none beside the slips of the level below, but its zone remains.
 
@@ -202,6 +203,7 @@ def release(m):
         if status != DONE:
             return status
         guards.n_fired = 0
+        loads.fastest = max(loads.fastest, acceleration_by_forces(problem, point, matrices))
         look_along(problem, run, point, events)
         s = NOT_REACHED if hardly_changes(point) else first_reached(problem, events)
         go_along(problem, point, events, min(s, 1.0))
@@ -231,7 +233,6 @@ def open_level(problem, point, matrices, events):
     slips = reals(loads.at_fast_slip, problem.n_guards)
     find_residual(problem, point, matrices, point.at_x)
     r = reals(point.at_x, n)
-    loads.fastest = max(loads.fastest, acceleration_if_free(problem, point, matrices))
     circle, circle_changed = indices(problem.at_circle, n), indices(loads.at_circle_changed, n)
     for k in range(n):
         circle_changed[k] = 0
@@ -261,16 +262,27 @@ def open_level(problem, point, matrices, events):
 
 
 @compiled
-def acceleration_if_free(problem, point, matrices):
-    """The largest acceleration, weighted, that the load in x would give bodies that nothing held.
+def acceleration_by_forces(problem, point, matrices):
+    """The largest acceleration, weighted, that one of the forces that change on the way x would give by itself.
 
-    Where all hold, accelerations are rounding of that one, and tell of no slip.
+    Where contacts hold, accelerations are the rounding of these, and tell of no slip.
     """
-    load, to_weigh = reals(point.at_x, problem.n), reals(point.at_u, problem.n)
-    is_speed = indices(problem.at_is_speed, problem.n)
-    for k in range(problem.n):
-        inertia = inertia_of(matrices, k) if is_speed[k] == 1 else 0.0
-        to_weigh[k] = load[k] / inertia if inertia > 0.0 else 0.0
+    n = problem.n
+    way, to_weigh = reals(point.at_x, n), reals(point.at_u, n)
+    starts, rows = indices(matrices.at_jacobian_starts, n + 1), indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    values, is_speed = reals(matrices.at_jacobian, matrices.n_jacobian), indices(problem.at_is_speed, n)
+    differential = indices(problem.at_differential, n)
+    for k in range(n):
+        to_weigh[k] = 0.0
+    for k in range(n):
+        if differential[k] == 0 and way[k] != 0.0:
+            for p in range(starts[k], starts[k + 1]):
+                if is_speed[rows[p]] == 1:
+                    to_weigh[rows[p]] = max(to_weigh[rows[p]], abs(values[p] * way[k]))
+    for k in range(n):
+        if to_weigh[k] > 0.0:
+            inertia = inertia_of(matrices, k)
+            to_weigh[k] = to_weigh[k] / inertia if inertia > 0.0 else 0.0
     return weighted_norm(point, point.at_u)
 
 

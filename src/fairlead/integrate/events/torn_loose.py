@@ -15,7 +15,8 @@ It lets go, and those that tie with it; the others are asked again. With which f
 long as they balance: they differ by what the contacts of a ring can be braced against each other, which is how they
 grow. What has no limit never is the first. Rigid rows that contradict each other are the matter of given_apart.py.
 
-So after every pass of a settlement, before forces are judged, slips are looked at a little later.
+So after every pass of a settlement, before forces are judged, slips are looked at a little later; once a pattern of
+zones has recurred, guards decide as in any settlement.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, sl
 ROUNDING = 1e-6
 """Share of the largest slip in a circle below which another is rounding."""
 DYING_OUT = 2e3
-"""Share of itself, by the second, that a slip left by rounding loses in a row that holds, twice over."""
+"""Share of itself that a slip left by rounding loses by the second in a row that holds, twice over: that row is
+d(v_rel)/dt = -v_rel/tau with tau = 1 ms."""
 NOWHERE = 1e300
 """How far what has no limit is from it."""
 
