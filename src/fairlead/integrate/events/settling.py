@@ -142,11 +142,11 @@ def settle_nearby(m, status):
     """RELEASED if other zones are to be tried, else as it was.
 
     For SINGULAR those that leave nothing open (left_open.py), which are in force then; for DONE those without the held
-    contacts that contradict others (torn_loose.py), which are in `fired`, as long as no pattern recurs. NO_ROOM if the
-    buffer of events is to be emptied first; called again it comes to the same.
+    contacts that contradict others (torn_loose.py), which are in `fired`. NO_ROOM if the buffer of events is to be
+    emptied first; called again it comes to the same.
     """
     settling = m.events.settling
-    if status == DONE and settling.stage == ALL and tear_first(m):
+    if status == DONE and tear_first(m):
         return RELEASED
     if status != SINGULAR:
         return status

@@ -15,8 +15,7 @@ It lets go, and those that tie with it; the others are asked again. With which f
 long as they balance: they differ by what the contacts of a ring can be braced against each other, which is how they
 grow. What has no limit never is the first. Rigid rows that contradict each other are the matter of given_apart.py.
 
-So after every pass of a settlement, before forces are judged, slips are looked at a little later; once a pattern of
-zones has recurred, guards decide as in any settlement.
+So after every pass of a settlement, before forces are judged, slips are looked at a little later.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ from fairlead.integrate.events.fast_way import TIE
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT
 from fairlead.integrate.events.violators import RISE, distance_to_look, event_is_due, move_ahead
-from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, slip_at
+from fairlead.integrate.memory.foreign import compiled, indices, reals, slip_at
 
 ROUNDING = 1e-6
 """Share of the largest slip in a circle below which another is rounding."""
@@ -38,25 +37,17 @@ NOWHERE = 1e300
 
 @compiled
 def tear_first(m):
-    """True if held contacts of circles contradict each other; the first of each circle to let go is in `fired` then."""
-    problem, guards = m.problem, m.events.guards
+    """True if held contacts of circles contradict each other; the first of each circle to let go is in `fired` then.
+
+    After half of the passes that a settlement is allowed, as with the order of release, guards decide as in any other.
+    """
+    problem, settling, guards = m.problem, m.events.settling, m.events.guards
     if problem.call_drift == 0 or problem.has_circles == 0 or event_is_due(m.run, m.point):
         return False
-    least = find_slips(m)
-    guards.n_fired, evaluated = 0, False
-    circle, slip = indices(problem.at_circle, problem.n), reals(m.point.at_v, problem.n)
-    largest = reals(m.point.at_b, problem.n)
-    for k in range(problem.n):
-        largest[k] = 0.0
-    for k in range(problem.n):
-        if circle[k] > 0:
-            largest[circle[k] - 1] = max(largest[circle[k] - 1], abs(slip[k]))
-    for c in range(problem.n):
-        if largest[c] > least and contradicts(m, c + 1, largest[c]):
-            if not evaluated:
-                evaluate_guards(problem, m.run, guards, m.point.t, m.point.at_y, guards.at_g)
-                evaluated = True
-            fire_first(m, c + 1, largest[c])
+    if settling.passes >= m.run.max_passes // 2 or not find_contradictions(m, find_slips(m)):
+        return False
+    grow_forces(m)
+    fire_first(problem, m.point, guards)
     return guards.n_fired > 0
 
 
@@ -87,49 +78,78 @@ def find_slips(m):
 
 
 @compiled
-def contradicts(m, c, largest):
-    """True if more than one row of circle c slips: one alone slips since the speed of what it follows has jumped."""
-    problem, count = m.problem, 0
-    circle, slip = indices(problem.at_circle, problem.n), reals(m.point.at_v, problem.n)
-    for k in range(problem.n):
-        if circle[k] == c and abs(slip[k]) > ROUNDING * largest:
-            count += 1
-    return count > 1
+def find_contradictions(m, least):
+    """True if more than one row of a circle slips; of other circles, and of rounding, slips are zero in v then.
+
+    Of one row alone what it follows has jumped. The largest slip of each circle is in b.
+    """
+    problem, n, found = m.problem, m.problem.n, False
+    circle, slip = indices(problem.at_circle, n), reals(m.point.at_v, n)
+    largest, count = reals(m.point.at_b, n), reals(m.point.at_x, n)
+    for k in range(n):
+        largest[k], count[k] = 0.0, 0.0
+    for k in range(n):
+        if circle[k] > 0:
+            largest[circle[k] - 1] = max(largest[circle[k] - 1], abs(slip[k]))
+    for k in range(n):
+        c = circle[k] - 1
+        if c < 0 or largest[c] <= least or abs(slip[k]) <= ROUNDING * largest[c]:
+            slip[k] = 0.0
+        else:
+            count[c] += 1.0
+    for k in range(n):
+        if slip[k] != 0.0 and count[circle[k] - 1] < 2.0:
+            slip[k] = 0.0
+        found = found or slip[k] != 0.0
+    return found
 
 
 @compiled
-def fire_first(m, c, largest):
-    """Add to `fired` the limits that the forces of circle c reach first as they grow with the slips."""
-    problem, point, guards = m.problem, m.point, m.events.guards
-    n, ng = problem.n, guards.n_guards
-    circle, slip = indices(problem.at_circle, n), reals(point.at_v, n)
+def grow_forces(m):
+    """Guards at the point into `g`, and where forces of circles have grown with their slips into `g_probe`.
+
+    By the largest force of their circle, or its weight, for the largest slip of it: circles have no body in common.
+    """
+    problem, point, guards, n = m.problem, m.point, m.events.guards, m.problem.n
+    circle, slip, largest = indices(problem.at_circle, n), reals(point.at_v, n), reals(point.at_b, n)
     grows, y, probe = indices(problem.at_grows_with_slip, n), reals(point.at_y, n), reals(point.at_y_probe, n)
-    weight, size = reals(point.at_weight, n), 0.0
+    weight, size = reals(point.at_weight, n), reals(point.at_u, n)
     for k in range(n):
-        if circle[k] == c and grows[k] != 0:
-            size = max(size, max(abs(y[k]), weight[k]))
-    copy(y, probe)
+        size[k] = 0.0
     for k in range(n):
-        if circle[k] == c and abs(slip[k]) > ROUNDING * largest:
-            probe[k] += grows[k] * slip[k] / largest * size
+        if circle[k] > 0 and grows[k] != 0:
+            size[circle[k] - 1] = max(size[circle[k] - 1], max(abs(y[k]), weight[k]))
+    for k in range(n):
+        c = circle[k] - 1
+        probe[k] = y[k] + (grows[k] * slip[k] / largest[c] * size[c] if slip[k] != 0.0 else 0.0)
+    evaluate_guards(problem, m.run, guards, point.t, point.at_y, guards.at_g)
     evaluate_guards(problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    first, fired = NOWHERE, indices(guards.at_fired, ng)
-    for i in range(ng):
-        first = min(first, way_to_limit(problem, guards, i, c))
-    if first == NOWHERE:
-        return
-    for i in range(ng):
-        if way_to_limit(problem, guards, i, c) <= first + TIE:
-            fired[guards.n_fired] = i
-            guards.n_fired += 1
 
 
 @compiled
-def way_to_limit(problem, guards, i, c):
-    """How far on its way a force of circle c is when it comes to the limit of guard i; NOWHERE if it does not."""
-    row = indices(problem.at_bounded_row, guards.n_guards)[i]
-    if row < 0 or indices(problem.at_circle, problem.n)[row] != c:
-        return NOWHERE
+def fire_first(problem, point, guards):
+    """Into `fired` the limits that the forces of each circle reach first on that way."""
+    n, ng = problem.n, guards.n_guards
+    circle, first = indices(problem.at_circle, n), reals(point.at_x, n)
+    row, fired = indices(problem.at_bounded_row, ng), indices(guards.at_fired, ng)
+    for k in range(n):
+        first[k] = NOWHERE
+    for i in range(ng):
+        if row[i] >= 0 and circle[row[i]] > 0:
+            c = circle[row[i]] - 1
+            first[c] = min(first[c], way_to_limit(guards, i))
+    guards.n_fired = 0
+    for i in range(ng):
+        if row[i] >= 0 and circle[row[i]] > 0:
+            way = way_to_limit(guards, i)
+            if way < NOWHERE and way <= first[circle[row[i]] - 1] + TIE:
+                fired[guards.n_fired] = i
+                guards.n_fired += 1
+
+
+@compiled
+def way_to_limit(guards, i):
+    """How far on its way a force is when it comes to the limit of guard i; NOWHERE if it does not."""
     here, there = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_probe, guards.n_guards)[i]
     if not there - here > RISE * reals(guards.at_guard_tolerance, guards.n_guards)[i]:
         return NOWHERE
