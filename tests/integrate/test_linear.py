@@ -196,6 +196,20 @@ def test_pivots_that_vanish_are_noticed_and_fresh_ones_solve_the_matrix():
     np.testing.assert_allclose(x, np.linalg.solve(1e3 * M - J, b), rtol=1e-8)
 
 
+@pytest.mark.parametrize("size", [1.0, 1e-20])
+def test_a_small_column_does_not_make_a_matrix_singular_and_one_that_follows_from_others_does(size):
+    """In a step of a nanosecond all that a force does is small beside what a place does."""
+    problem, matrices = mechanical_network(np.random.default_rng(4), bodies=20, contacts=4)
+    memory = memory_for(problem, planned(problem, backwards=True))
+    J, M = matrices(np.ones(4, int), 1e3)
+    solve_with(memory, problem, J, M, 1e3, np.ones(len(J)))
+    starts = memory.array["matrix_starts"]
+    memory.array["matrix"][starts[3] : starts[4]] *= size
+    assert fresh_plan(memory, problem) is not None
+    memory.array["matrix"][starts[3] : starts[4]] = 0.0
+    assert fresh_plan(memory, problem) is None
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_pivots_that_vanish_are_perturbed_and_the_solution_is_that_of_the_matrix_without(seed):
     """In the worst order the multipliers that hold have none; which do, changes from one matrix to the next."""

@@ -247,3 +247,17 @@ def test_a_slip_grows_from_rest_by_the_slope_of_its_friction_over_its_inertia(se
     else:
         assert at.number["growth"] == 0.0
     assert kept
+
+
+@pytest.mark.parametrize("ends", [(1.0, -3.0), (-1e-9, 2e-12), (5.0, -5e-3)])
+@pytest.mark.parametrize("bend", [0.0, 0.9])
+def test_the_zero_of_a_force_inside_a_step_is_that_of_its_interpolant(ends, bend):
+    """(1 - s) y0 + s (y1 + (1 - s) D0): a parabola, whose root has a closed form."""
+    from fairlead.integrate.events.corners import zero_of
+
+    start, end = ends
+    D = bend * (end - start)
+    at = memory({"n": 2}, y=[0.0, start], y_end=[0.0, end], D=[0.0, D, 0.0, 0.0, 0.0, 0.0])
+    s = entry(zero_of, ("point",), "i", "d")(at, 1)
+    roots = np.roots([-D, end - start + D, start])
+    assert s == pytest.approx(float(roots[(roots > 0) & (roots < 1)][0]), rel=1e-12)

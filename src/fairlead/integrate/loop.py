@@ -33,11 +33,14 @@ from fairlead.integrate.codes import (
     PAUSED,
     RECORD,
     SETTLE,
+    SINGULAR_MATRIX,
+    STEP_FLOOR,
     TRY,
     WAKE,
     WIDEN,
 )
 from fairlead.integrate.events.arrival import arrive, settle_here, start
+from fairlead.integrate.events.given_up import settle_at_start
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.memory.foreign import compiled, memory_at
@@ -88,6 +91,8 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                     return PAUSED
                 attempts -= 1
                 status = attempt(m)
+                if status > FINISHED and begins_without_answer(m, status):
+                    status = settle_at_start(m)
             elif run.phase == RECORD:
                 status = write_piece(m)
             elif run.phase == ARRIVE:
@@ -116,6 +121,18 @@ def ready(problem, run, point, recorder):
     if not there_is_room(problem, recorder):
         return BUFFER_FULL
     return NARROW if run.steps >= run.narrow_at else GO_ON
+
+
+@compiled
+def begins_without_answer(m, status):
+    """True if no step succeeds since its start, not settled yet, may lie where its zones have no answer (corners.py).
+
+    What `stepping` has of forces at the end of a step is extrapolated, beyond the corner by what it is off.
+    """
+    if m.problem.n_pressing == 0 or m.run.judged == 1:
+        return False
+    m.events.guards.n_fired = 0
+    return status in (SINGULAR_MATRIX, STEP_FLOOR)
 
 
 @compiled

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double TRUSTED = 0.1; /* of the largest of a column: a planned pivot that stays */
-static const double SINGULAR = 1e-14; /* as in replan.py, rows and columns scaled */
+static const double VANISHES = 1e-14; /* as in replan.py, rows and columns scaled */
 
 static int64_t number(const unsigned char *memory, int64_t at) { return *(const int64_t *)(memory + at); }
 static const int64_t *whole_at(const unsigned char *memory, int64_t at) { return (const int64_t *)(intptr_t)number(memory, at); }
@@ -23,18 +23,23 @@ static void lengths(const unsigned char *memory, int64_t n_lower, int64_t n_uppe
     memcpy(length, known, sizeof known);
 }
 
-/* The scaled matrix, row by row; 0 where it has something that is no finite number. */
+/* The scaled matrix, row by row, columns by their largest entry; 0 where one has none, or no finite number. */
 static int spread(const unsigned char *memory, int64_t n, double *a) {
     const int64_t *starts = whole_at(memory, AT_AT_MATRIX_STARTS), *rows = whole_at(memory, AT_AT_MATRIX_ROWS);
     const int64_t *order = whole_at(memory, AT_AT_COLUMN_ORDER);
     const double *values = reals_at(memory, AT_AT_MATRIX), *row_scale = reals_at(memory, AT_AT_ROW_SCALE);
     const double *column_scale = reals_at(memory, AT_AT_COLUMN_SCALE);
-    for (int64_t k = 0; k < n; k++)
+    for (int64_t k = 0; k < n; k++) {
+        double largest = 0.0;
         for (int64_t p = starts[k]; p < starts[k + 1]; p++) {
             double value = values[p] * row_scale[rows[p]] * column_scale[order[k]];
             if (!isfinite(value)) return 0;
+            if (fabs(value) > largest) largest = fabs(value);
             a[rows[p] * n + k] = value;
         }
+        if (!(largest > 0.0)) return 0;
+        for (int64_t p = starts[k]; p < starts[k + 1]; p++) a[rows[p] * n + k] /= largest;
+    }
     return 1;
 }
 
@@ -48,7 +53,7 @@ static int eliminate(int64_t n, double *a, int64_t *taken, char *used) {
                 largest = fabs(a[i * n + k]);
                 best = i;
             }
-        if (!(largest > SINGULAR)) return 0;
+        if (!(largest > VANISHES)) return 0;
         if (!used[k] && fabs(a[k * n + k]) >= TRUSTED * largest) best = k;
         taken[k] = best;
         used[best] = 1;

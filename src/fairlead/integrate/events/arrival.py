@@ -210,7 +210,8 @@ def judge_again(problem, run, point, events):
     The interpolant is off what is kept, and off the forces of what holds, by the error of a step, more than a guard is
     known to. A contact that lets go by that too early, by a time tau, would be caught at once: its load is below its
     limit until then. So the settlement looks ahead by `EARLY` times tau, as far as it goes, and what is farther off is
-    dropped: it fires in the next step, which begins at the better point and is as short as its guard is near.
+    dropped: it fires in the next step, which begins at the better point and is as short as its guard is near. Not so in
+    a corner (corners.py), where the equations may have their point on the other side.
     """
     guards, settling = events.guards, events.settling
     settling.least_look = 0.0
@@ -220,6 +221,7 @@ def judge_again(problem, run, point, events):
         return
     g, tolerance = reals(guards.at_g, problem.n_guards), reals(guards.at_guard_tolerance, problem.n_guards)
     fired, kept, later = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
+    corner = indices(guards.at_in_corner, problem.n_guards)
     d, tied = 0.0, False  # whether a load turns at its limit
     if problem.n_accelerated == 0:
         d = distance_to_look(run, point)
@@ -227,7 +229,7 @@ def judge_again(problem, run, point, events):
     evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe if d > 0.0 else point.at_y, guards.at_g_probe)
     for k in range(guards.n_fired):
         i = fired[k]
-        near = g[i] >= -AT_LIMIT * tolerance[i]
+        near = corner[i] == 1 or g[i] >= -AT_LIMIT * tolerance[i]
         if not near and FARTHER * (later[i] - g[i]) >= EARLY * -g[i]:
             near = True
             settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (later[i] - g[i]))

@@ -5,6 +5,10 @@ that were a creep, with millions of its friction. Where a gear rubs by the force
 no answer at all, while those of the speeds have one. So where none is found, guards are asked at the point as it was
 before: those of speeds, places and time need no forces, and those of forces find the ones from before, none at a start.
 Those above zero change their zones. What is wrong by forces then shows as soon as there is an answer.
+
+Where what rubs by the force of a rigid part locks itself, its zones have an answer up to where that force is zero, and
+none behind (corners.py). The point may lie behind, by the error of a step. So if no guard is above zero, they are asked
+with such forces at zero: the contact lifts off, and lands with forces of the other sign.
 """
 
 from __future__ import annotations
@@ -34,17 +38,36 @@ def fire_without_answer(m):
     problem, point, guards, settling = m.problem, m.point, m.events.guards, m.events.settling
     if settling.without_answer >= MOST_WITHOUT_ANSWER or guards.n_guards == 0:
         return False
-    n, ng = point.n, guards.n_guards
+    n = point.n
     copy(reals(point.at_y_unsettled, n), reals(point.at_y, n))
     copy(reals(point.at_slope_unsettled, n), reals(point.at_slope, n))
     evaluate_guards(problem, m.run, guards, point.t, point.at_y, guards.at_g)
-    g, tolerance = reals(guards.at_g, ng), reals(guards.at_guard_tolerance, ng)
-    fired = indices(guards.at_fired, ng)
+    fire_above(guards, guards.at_g)
+    if guards.n_fired == 0 and problem.n_pressing > 0:
+        without_pressing(problem, point)
+        evaluate_guards(problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
+        fire_above(guards, guards.at_g_probe)
+    latches_wait(problem, guards)
+    settling.without_answer += 1
+    return guards.n_fired > 0
+
+
+@compiled
+def fire_above(guards, at_g):
+    """Into `fired` the guards of these values that are above zero."""
+    ng = guards.n_guards
+    g, tolerance, fired = reals(at_g, ng), reals(guards.at_guard_tolerance, ng), indices(guards.at_fired, ng)
     guards.n_fired = 0
     for i in range(ng):
         if g[i] > tolerance[i]:
             fired[guards.n_fired] = i
             guards.n_fired += 1
-    latches_wait(problem, guards)
-    settling.without_answer += 1
-    return guards.n_fired > 0
+
+
+@compiled
+def without_pressing(problem, point):
+    """The point with forces of pressing parts at zero, into `y_probe`."""
+    probe, rows = reals(point.at_y_probe, point.n), indices(problem.at_pressing_row, problem.n_pressing)
+    copy(reals(point.at_y, point.n), probe)
+    for k in range(problem.n_pressing):
+        probe[rows[k]] = 0.0

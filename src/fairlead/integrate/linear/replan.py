@@ -11,6 +11,10 @@ from fairlead.integrate.linear.ordering import Plan, inverse, sparse_plan
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem
 
+PIVOT_VANISHES = 1e-14
+"""Share of the largest entry of its column below which a pivot is rounding, as in systems.py: a small column is no
+singular one."""
+
 
 def replan(memory: Memory, problem: Problem) -> bool:
     """Give the loop fresh pivots for the matrix it could not factorise; False if that matrix is singular."""
@@ -27,8 +31,8 @@ def replan(memory: Memory, problem: Problem) -> bool:
 def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
     """The plan with the pivots that partial pivoting takes for the core in memory, or None.
 
-    That is the matrix whose factorisation failed, in the units of the error weights, so that the
-    comparison of pivots does not depend on units. None means that it is singular.
+    That is the matrix whose factorisation failed, in the units of the error weights, so that the comparison of pivots
+    does not depend on units; and its columns by their largest entry. None means that it is singular.
     """
     import scipy.sparse
     import scipy.sparse.linalg
@@ -42,6 +46,10 @@ def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
     if not np.all(np.isfinite(array["matrix"])):
         return None
     scaled = matrix * array["row_scale"][:core, None] * array["column_scale"][column_order][None, :]
+    largest = abs(scaled).max(axis=0).toarray()
+    if not largest.min() > 0.0:
+        return None
+    scaled = scaled / largest[None, :]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -49,7 +57,7 @@ def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
         except RuntimeError:
             return None
     pivots = np.abs(factors.U.diagonal())
-    if not pivots.min() > 1e-14:
+    if not pivots.min() > PIVOT_VANISHES:
         return None
     new_rows = row_order[inverse(factors.perm_r.astype(np.int64), core)[:core]]
     new_columns = column_order[inverse(factors.perm_c.astype(np.int64), core)[:core]]

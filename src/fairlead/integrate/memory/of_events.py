@@ -31,6 +31,7 @@ GUARDS = Struct(
     indices={
         "fired": "n_guards",  # numbers of the guards that fired, or that are asked for
         "bump_guard": "n_guards", "bump_places": "n_guards",  # which guard it is, and at how many places it was asked
+        "in_corner": "n_guards",  # 1: it touches zero where a force that presses passes through zero (corners.py)
     },
 )  # fmt: skip
 """Guards at the point, along a step and at its end; which of them fired.

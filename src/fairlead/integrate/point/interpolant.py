@@ -17,3 +17,12 @@ def interpolate(point, s, at_result):
     for k in range(n):
         inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
         result[k] = rest * y[k] + s * (y_end[k] + rest * inner)
+
+
+@compiled
+def interpolate_one(point, s, k):
+    """y_k(s), as `interpolate` writes it."""
+    n = point.n
+    D = reals(point.at_D, 3 * n)
+    inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
+    return (1.0 - s) * reals(point.at_y, n)[k] + s * (reals(point.at_y_end, n)[k] + (1.0 - s) * inner)
