@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 import numpy as np
 
+from fairlead.analysis.record.ends import Ends, Limit
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.analysis.record.unsettled import with_way_out
 from fairlead.arguments import Arguments, keywords_told
@@ -83,6 +84,7 @@ class Stepping:
         """Zone changes in the last `advance`, in order."""
         self._of = system
         recorded = system.recording(record).recorded
+        self._ends = Ends.of(system, recorded)
         self._inputs, faults = find_inputs(netlist, system, inputs)
         self._columns, outputs, more = find_outputs(netlist, recorded)
         more += set_already(self._inputs, {} if tunable is None else tunable.inside)
@@ -179,11 +181,16 @@ class Stepping:
         if name not in self._columns:
             near, way_out = suggest(str(name), list(self._columns))
             raise UsageError(f"get: no signal has the name {shown(str(name))}. {near} {way_out}".rstrip())
+        values = self._recorded()
+        take, columns = self._columns[name]
+        return (max if take == "max" else min)(float(values[k]) for k in columns)
+
+    def _recorded(self) -> np.ndarray:
+        """What could be recorded where the run is."""
         if self._values is None:
             self._values = np.zeros(self._instance.n_outputs)
             call(self._instance, "outputs", self.t, self._memory.array["y"], self._values)
-        take, columns = self._columns[name]
-        return (max if take == "max" else min)(float(self._values[k]) for k in columns)
+        return self._values
 
     @keywords_told
     def advance(self, t: float | str, *, until_change: bool = False) -> float:
@@ -211,8 +218,10 @@ class Stepping:
         self._values = None
         self._take_over()
         known, begun = len(self.changes), time.perf_counter()
+        self._end_without_law()
         while self.t < goal and not (until_change and len(self.changes) > known):
             self._step(goal)
+            self._end_without_law()
             if self.t < goal and self._late(begun):
                 self._going.status = Status.MAX_WALL
                 raise SteppingError(*self._ended())
@@ -286,14 +295,19 @@ class Stepping:
 
     def _take_over(self) -> None:
         """Settle on what was set."""
+        self._settle()
         while self._instance.memory["set_due"][0]:
             self._values = None
             self._step(self.t)
+        self._settle()
+
+    def _settle(self) -> None:
+        """Settle where the run is, if that is due: a settlement asks anew when the next time event is."""
         while self._memory.number["phase"] != TRY:
             self._enter(0)
 
     def _step(self, goal: float) -> None:
-        """One trial step that does not go beyond `goal`."""
+        """One trial step that does not go beyond `goal`, of a run that is settled."""
         number = self._memory.number
         due = float(number["t_next"])
         number["t_next"] = min(due, goal)
@@ -302,6 +316,13 @@ class Stepping:
         finally:
             if number["t_next"] == goal and goal < due:
                 number["t_next"] = due
+
+    def _end_without_law(self) -> None:
+        """Raise SteppingError where no law says what follows."""
+        if self._ends.any:
+            self._values = None
+            if said := self._ends.at(self.t, self._recorded()):
+                raise SteppingError(said, self.t)
 
     def _enter(self, attempts: int) -> None:
         self._going.go_on(attempts)
@@ -341,8 +362,10 @@ class LaidOpen(NamedTuple):
     engine: Engine
     columns: Mapping[str, Read]
     """Where among the recorded values a signal or an output is, by name."""
+    limits: Sequence[Limit]
+    """Of recorded values: where a run ends."""
 
 
 def laid_open(run: Stepping) -> LaidOpen:
     """What a run is made of."""
-    return LaidOpen(run._memory, run._instance, run._going.engine, run._columns)
+    return LaidOpen(run._memory, run._instance, run._going.engine, run._columns, list(run._ends.limits()))

@@ -1,5 +1,6 @@
 """Parameters that are set while an FMU runs: as `run.set` between two advances does it, or refused by name."""
 
+import numpy as np
 import pytest
 
 import fairlead
@@ -129,6 +130,50 @@ def test_a_parameter_acts_from_the_point_where_it_is_set_and_a_state_takes_it_ba
         one.t = 0.1
         one.step(0.1)
         assert one.get("speed", "load") == [0.0, 80.0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("version", "engine"), [(3, "rodas"), (2, "rodas"), (3, "stepping")])
+def test_an_input_and_a_parameter_set_at_one_point_do_not_pass_the_next(scene, tmp_path, version, engine):
+    fmpy()
+    changes = {20: {"load": 12.0, "pull": 3.0}, 21: {"pull": 5.0, "mass": 1.5}, 24: {"mu": 0.2, "pull": 5.0}}
+    with slave(scene(version, engine), tmp_path) as one:
+        one.fmu.exitInitializationMode()
+        rows = []
+        for k in range(30):
+            for name, value in changes.get(k, {}).items():
+                one.set(name, value)
+            one.step(H)
+            rows.append(one.get(*OUT))
+    run, own = model(tmp_path, "scene", SCENE).start(engine=engine), []
+    for k in range(30):
+        for name, value in changes.get(k, {}).items():
+            run.set(name, value)
+        assert run.advance((k + 1) * H) == (k + 1) * H
+        own.append([run.get(one) for one in OUT])
+    np.testing.assert_allclose(rows, own, rtol=0, atol=1e-6)
+
+
+@pytest.mark.slow
+def test_where_nothing_is_left_an_fmu_ends_with_the_words_of_a_run(tmp_path):
+    fmpy()
+    web = """
+components:
+  roll: {type: Unwinder, radius: 0.3 m, core_radius: 50 mm, width: 0.5 m, thickness: 2 mm, density: 800 kg/m^3,
+         moment: 0.2 kg*m^2}
+  hand: {type: ForceSource, force: 40 N}
+connections: [[roll.rim, hand.flange]]
+run: {stop: 60 s}
+interface: {outputs: {radius: roll.radius}}
+"""
+    end = model(tmp_path, "web", web).run(out=None, check=False)
+    assert "roll is used up" in end.sentence
+    with slave(once(tmp_path, "web_fmu", 3, web), tmp_path) as one:
+        one.fmu.exitInitializationMode()
+        with pytest.raises(Exception, match="error"):
+            while one.t < 60.0:
+                one.step(0.1)
+        assert one.t == pytest.approx(end.t[-1], abs=0.2)
 
 
 def test_the_description_tells_range_start_and_when_a_parameter_can_be_set(scene):

@@ -348,3 +348,80 @@ def test_inputs_may_be_named_when_a_run_is_started(tmp_path):
     run.set("command.value", 9.0)
     run.advance(0.1)
     assert run.get("block.v") == pytest.approx(0.2, rel=1e-9)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("names", [("pull", "more"), ("more", "pull"), ("pull", "more", "pull", "load")])
+@pytest.mark.parametrize("points", [(0.0, 0.05), (0.06, 0.08), (0.5, 2.5)])
+def test_an_input_and_parameters_set_at_one_point_do_not_pass_the_next(tmp_path, engine, names, points):
+    """9 N against 5 N on 4 kg: the settlement on the parameter forgot the point to which the step was to go."""
+    path = tmp_path / "scene.yaml"
+    path.write_text(f"{PUSHED}  tunable: {{load: pad.normal_force, more: block.mass}}\n", encoding="utf-8")
+    run = fairlead.load(path).start(engine=engine)
+    run.advance(points[0])
+    for name in names:
+        run.set(name, {"pull": 9.0, "more": 4.0, "load": 10.0}[name])
+    assert run.advance(points[1]) == points[1] == run.t
+    assert run.get("speed") == pytest.approx((points[1] - points[0]) * (9.0 - 5.0) / 4.0, rel=1e-6)
+
+
+ROCKET = """
+from fairlead.component import Component, Law, Output, Parameter, State, Translational
+
+
+class Rocket(Component):
+    \"\"\"Pushes its flange as long as it has fuel.\"\"\"
+
+    flange = Translational("what it pushes")
+    fuel = Parameter("kg", "Fuel at the start.", above=0)
+    burnt = State("kg", "What it has burnt.")
+    left = Output("kg", "Fuel left.")
+    empty = Output("kg", "Above zero where none is left.", role="used_up")
+
+    def law(p, flange, burnt):
+        return Law(flange=-5.0, burnt=0.5, left=p.fuel - burnt, empty=burnt - p.fuel, supplied=5.0 * flange.v)
+"""
+WITHOUT_LAW = {
+    "fuel": ("""
+components:
+  body: {type: Mass, mass: 10 kg}
+  rocket: {type: Rocket, fuel: 1 kg}
+connections: [[body.flange, rocket.flange]]
+""", "rocket is used up, and no law says what follows", 2.0, ENGINES),
+    "hose": ("""
+components:
+  wall: {type: Ground}
+  line: {type: Hose, axial_stiffness: 100 N, length: 2 m}
+  hand: {type: MotionSource, position: {table: [[0, 2], [1, -0.2], [2, 3]]}}
+connections: [[wall.flange, line.a], [hand.flange, line.b]]
+""", "line: inside out, the ends have passed each other", 2.0 / 2.2, ENGINES),
+    "web": ("""
+components:
+  roll: {type: Unwinder, radius: 0.3 m, core_radius: 50 mm, width: 0.5 m, thickness: 2 mm, density: 800 kg/m^3,
+         moment: 0.2 kg*m^2}
+  hand: {type: ForceSource, force: 40 N}
+connections: [[roll.rim, hand.flange]]
+""", "roll is used up, and no law says what follows", None, ["rodas"]),
+}  # fmt: skip
+"""What ends, with which words, when (None: as long as `run` says), and on which engines."""
+
+
+@pytest.mark.parametrize(
+    ("name", "engine"), [(name, engine) for name, one in WITHOUT_LAW.items() for engine in one[3]]
+)
+def test_where_no_law_says_what_follows_a_run_ends_with_the_words_of_model_run(tmp_path, name, engine):
+    """Fuel burns for 2 s, a hand passes through a wall, a roll runs out: and the end is told again when asked again."""
+    text, said, end, _ = WITHOUT_LAW[name]
+    (tmp_path / "rocket.py").write_text(ROCKET, encoding="utf-8")
+    (tmp_path / "scene.yaml").write_text(text + "run: {stop: 60 s, max_step: 20 ms}\n", encoding="utf-8")
+    model = fairlead.load(tmp_path / "scene.yaml", libraries=[tmp_path / "rocket.py"])
+    whole = model.run(out=None, check=False, engine=engine)
+    assert said in whole.sentence
+    end = whole.t[-1] if end is None else end
+    for step in (0.01, 7.0):
+        run = model.start(engine=engine)
+        for _ in range(2):
+            with pytest.raises(fairlead.SteppingError, match=said) as told:
+                while run.t < 60.0:
+                    run.advance(run.t + step)
+            assert told.value.t == run.t == pytest.approx(end, abs=0.02)

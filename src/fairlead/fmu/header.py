@@ -39,6 +39,7 @@ def header(
         "MEMORY_BYTES": image.size, "STATE_BYTES": image.state, "N_LINKS": len(image.links),
         "N_RUNS": len(image.runs), "N_UNKNOWNS": own.n, "N_MACHINES": len(own.machine_names),
         "N_RECORDED": own.n_outputs, "N_OUTPUTS": len(columns), "N_INPUTS": len(names["input"]),
+        "N_ENDS": len(opened.limits),
         **{f"AT_{name.upper()}": PLACES[name][0] for name in FIELDS},
         **{f"AT_{name.upper()}": image.piece + at for name, at in piece.items()},
         **{f"STATUS_{name}": value for name, value in _statuses().items()}, "PHASE_TRY": codes.TRY,
@@ -67,6 +68,9 @@ def header(
         )),
         _table("Follower model_followers[]", (
             f"{law.at}, {which}, {law.law}, {_exact(law.offset)}, {_exact(law.slope)}" for which, law in laws
+        )),
+        _table("End model_ends[]", (
+            ", ".join([str(one.column), _exact(one.sign), _exact(one.most), _text(one.sentence)]) for one in opened.limits
         )),
         _table("Kept model_kept[]", (f"{at}, {length}" for at, length in kept)),
     ]  # fmt: skip

@@ -67,7 +67,11 @@ class Strains:
             return None
         row = int(inside_out.any(axis=1).argmax())
         names = tuple(self.names[k] for k in np.flatnonzero(inside_out[row]).tolist())
-        return row, f"t = {t[row]:.6g} s: {few(names)}: {PASSED}, and no law of a line means that. {CURE}", names
+        return row, f"t = {t[row]:.6g} s: {self.sentence(names)}", names
+
+    def sentence(self, names: Sequence[str]) -> str:
+        """Why these end a run."""
+        return f"{few(names)}: {PASSED}, and no law of a line means that. {CURE}"
 
     def watch(self, t: Floats, rows: Floats) -> None:
         """Take recorded rows, shape (k, recorded)."""

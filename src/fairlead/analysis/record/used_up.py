@@ -49,8 +49,11 @@ class UsedUp:
             return None
         row = int(empty.any(axis=1).argmax())
         names = tuple(dict.fromkeys(self.names[k] for k in np.flatnonzero(empty[row]).tolist()))
-        verb = "is" if len(names) == 1 else "are"
-        return row, f"t = {t[row]:.6g} s: {few(names)} {verb} used up, and no law says what follows. {CURE}", names
+        return row, f"t = {t[row]:.6g} s: {self.sentence(names)}", names
+
+    def sentence(self, names: Sequence[str]) -> str:
+        """Why these end a run."""
+        return f"{few(names)} {'is' if len(names) == 1 else 'are'} used up, and no law says what follows. {CURE}"
 
 
 def _as_written(path: str, entries: Iterable[str]) -> str:

@@ -12,6 +12,9 @@ typedef struct { int64_t at, kind, target; } Link;
 /* Stretches of memory that are not zero before the start: where, how long, where their bytes begin. */
 typedef struct { int64_t at, length, from; } Stretch;
 
+/* Where a run ends, since no law says what follows: there sign * (recorded value) > most (analysis/record/ends.py). */
+typedef struct { int column; double sign, most; const char *sentence; } End;
+
 extern HIDDEN const Link fairlead_links[];
 extern HIDDEN const Stretch fairlead_runs[];
 extern HIDDEN const unsigned char fairlead_bytes[];

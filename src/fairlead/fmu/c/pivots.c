@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double TRUSTED = 0.1; /* of the largest of a column: a planned pivot that stays */
-static const double VANISHES = 1e-14; /* as in replan.py, rows and columns scaled */
+static const double VANISHES = 1e-14; /* of what a pivot is the difference of, as in replan.py */
 
 static int64_t number(const unsigned char *memory, int64_t at) { return *(const int64_t *)(memory + at); }
 static const int64_t *whole_at(const unsigned char *memory, int64_t at) { return (const int64_t *)(intptr_t)number(memory, at); }
@@ -23,27 +23,22 @@ static void lengths(const unsigned char *memory, int64_t n_lower, int64_t n_uppe
     memcpy(length, known, sizeof known);
 }
 
-/* The scaled matrix, row by row, columns by their largest entry; 0 where one has none, or no finite number. */
+/* The scaled matrix, row by row; 0 where it has something that is no finite number. */
 static int spread(const unsigned char *memory, int64_t n, double *a) {
     const int64_t *starts = whole_at(memory, AT_AT_MATRIX_STARTS), *rows = whole_at(memory, AT_AT_MATRIX_ROWS);
     const int64_t *order = whole_at(memory, AT_AT_COLUMN_ORDER);
     const double *values = reals_at(memory, AT_AT_MATRIX), *row_scale = reals_at(memory, AT_AT_ROW_SCALE);
     const double *column_scale = reals_at(memory, AT_AT_COLUMN_SCALE);
-    for (int64_t k = 0; k < n; k++) {
-        double largest = 0.0;
+    for (int64_t k = 0; k < n; k++)
         for (int64_t p = starts[k]; p < starts[k + 1]; p++) {
             double value = values[p] * row_scale[rows[p]] * column_scale[order[k]];
             if (!isfinite(value)) return 0;
-            if (fabs(value) > largest) largest = fabs(value);
             a[rows[p] * n + k] = value;
         }
-        if (!(largest > 0.0)) return 0;
-        for (int64_t p = starts[k]; p < starts[k + 1]; p++) a[rows[p] * n + k] /= largest;
-    }
     return 1;
 }
 
-/* taken[k]: the row that is the k-th pivot; 0 where the matrix is singular. */
+/* taken[k]: the row that is the k-th pivot; 0 where the matrix is singular. In place, L and U of these rows. */
 static int eliminate(int64_t n, double *a, int64_t *taken, char *used) {
     for (int64_t k = 0; k < n; k++) {
         int64_t best = -1;
@@ -53,13 +48,16 @@ static int eliminate(int64_t n, double *a, int64_t *taken, char *used) {
                 largest = fabs(a[i * n + k]);
                 best = i;
             }
-        if (!(largest > VANISHES)) return 0;
+        if (best < 0) return 0;
         if (!used[k] && fabs(a[k * n + k]) >= TRUSTED * largest) best = k;
+        double terms = fabs(a[best * n + k]);
+        for (int64_t j = 0; j < k; j++) terms += fabs(a[best * n + j] * a[taken[j] * n + k]);
+        if (!(fabs(a[best * n + k]) > VANISHES * terms)) return 0;
         taken[k] = best;
         used[best] = 1;
         for (int64_t i = 0; i < n; i++) {
             if (used[i] || a[i * n + k] == 0.0) continue;
-            double factor = a[i * n + k] / a[best * n + k];
+            double factor = a[i * n + k] /= a[best * n + k];
             for (int64_t j = k + 1; j < n; j++)
                 if (a[best * n + j] != 0.0) a[i * n + j] -= factor * a[best * n + j];
         }

@@ -222,7 +222,7 @@ static int enter(Run *run, int64_t attempts) {
     }
 }
 
-/* One trial step that does not go beyond `goal`. */
+/* One trial step that does not go beyond `goal`, of a run that is settled. */
 static int step(Run *run, double goal) {
     double due = *real(run, AT_T_NEXT);
     *real(run, AT_T_NEXT) = goal < due ? goal : due;
@@ -267,6 +267,27 @@ static int go_over(Run *run) {
     return 0;
 }
 
+/* Everything that is recorded, where the run is. */
+static void read_recorded(const Run *run, double *all) {
+    typedef void (*Outputs)(int64_t, double, const double *, double *);
+    Outputs outputs = (Outputs)(intptr_t)*whole(run, AT_CALL_OUTPUTS);
+    outputs(*whole(run, AT_CONTEXT), run_time(run), (const double *)(intptr_t)*whole(run, AT_AT_Y), all);
+}
+
+/* End where no law says what follows, as where a part is used up (fairlead/analysis/record/ends.py). */
+static int end_without_law(Run *run) {
+    if (N_ENDS == 0) return 0;
+    double all[N_RECORDED + 1];
+    read_recorded(run, all);
+    for (int k = 0; k < N_ENDS; k++)
+        if (model_ends[k].sign * all[model_ends[k].column] > model_ends[k].most) {
+            run->ended = STATUS_ENDED;
+            snprintf(run->message, MESSAGE, "t = %.6g s: %s", run_time(run), model_ends[k].sentence);
+            return -1;
+        }
+    return 0;
+}
+
 int run_begin(Run *run) {
     if (run->begun) return 0;
     if (go_over(run)) return -1;
@@ -276,13 +297,18 @@ int run_begin(Run *run) {
     return 0;
 }
 
-int run_settle(Run *run) {
-    if (run_begin(run) || go_over(run)) return -1;
-    while (*whole(run, AT_SET_DUE))
-        if (step(run, run_time(run))) return -1;
+/* Settle where the run is, if that is due: a settlement asks anew when the next time event is. */
+static int settle_if_due(Run *run) {
     while (*whole(run, AT_PHASE) != PHASE_TRY)
         if (enter(run, 0)) return -1;
     return 0;
+}
+
+int run_settle(Run *run) {
+    if (run_begin(run) || go_over(run) || settle_if_due(run)) return -1;
+    while (*whole(run, AT_SET_DUE))
+        if (step(run, run_time(run))) return -1;
+    return settle_if_due(run);
 }
 
 int run_advance(Run *run, double goal, int until_change, int *changed) {
@@ -295,18 +321,17 @@ int run_advance(Run *run, double goal, int until_change, int *changed) {
         *real(run, AT_STOP) = *real(run, AT_START) + 2.0 * (goal - *real(run, AT_START));
     if (run_settle(run)) return -1;
     run->changes = 0;
+    if (end_without_law(run)) return -1;
     while (run_time(run) < goal && !(until_change && run->changes > 0))
-        if (step(run, goal)) return -1;
+        if (step(run, goal) || end_without_law(run)) return -1;
     *changed = run->changes > 0;
     return 0;
 }
 
 int run_outputs(Run *run, double *values) {
-    typedef void (*Outputs)(int64_t, double, const double *, double *);
     if (run_begin(run)) return -1;
-    Outputs outputs = (Outputs)(intptr_t)*whole(run, AT_CALL_OUTPUTS);
     double all[N_RECORDED + 1];
-    outputs(*whole(run, AT_CONTEXT), run_time(run), (const double *)(intptr_t)*whole(run, AT_AT_Y), all);
+    read_recorded(run, all);
     for (int k = 0; k < N_OUTPUTS; k++) {
         values[k] = all[model_columns[model_columns_starts[k]]];
         for (int j = model_columns_starts[k] + 1; j < model_columns_starts[k + 1]; j++) {

@@ -8,13 +8,9 @@ import numpy as np
 
 from fairlead.integrate.linear.condensing import core_entries, lay_out
 from fairlead.integrate.linear.ordering import Plan, inverse, sparse_plan
+from fairlead.integrate.linear.systems import VANISHES
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem
-
-PIVOT_VANISHES = 1e-14
-"""Share of the largest entry of its column below which a pivot is rounding, as in systems.py: a small column is no
-singular one."""
-
 
 def replan(memory: Memory, problem: Problem) -> bool:
     """Give the loop fresh pivots for the matrix it could not factorise; False if that matrix is singular."""
@@ -32,7 +28,7 @@ def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
     """The plan with the pivots that partial pivoting takes for the core in memory, or None.
 
     That is the matrix whose factorisation failed, in the units of the error weights, so that the comparison of pivots
-    does not depend on units; and its columns by their largest entry. None means that it is singular.
+    does not depend on units. None means that it is singular: a pivot is rounding of what it is the difference of.
     """
     import scipy.sparse
     import scipy.sparse.linalg
@@ -46,18 +42,14 @@ def fresh_plan(memory: Memory, problem: Problem) -> Plan | None:
     if not np.all(np.isfinite(array["matrix"])):
         return None
     scaled = matrix * array["row_scale"][:core, None] * array["column_scale"][column_order][None, :]
-    largest = abs(scaled).max(axis=0).toarray()
-    if not largest.min() > 0.0:
-        return None
-    scaled = scaled / largest[None, :]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
             factors = scipy.sparse.linalg.splu(scipy.sparse.csc_array(scaled), permc_spec="COLAMD")
         except RuntimeError:
             return None
-    pivots = np.abs(factors.U.diagonal())
-    if not pivots.min() > PIVOT_VANISHES:
+    terms = abs(factors.L).multiply(abs(factors.U).T).sum(axis=1)
+    if not np.all(np.abs(factors.U.diagonal()) > VANISHES * terms):
         return None
     new_rows = row_order[inverse(factors.perm_r.astype(np.int64), core)[:core]]
     new_columns = column_order[inverse(factors.perm_c.astype(np.int64), core)[:core]]

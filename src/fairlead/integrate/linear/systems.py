@@ -15,9 +15,9 @@ from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.linear.condensed import factorise_core, solve_core
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-VANISHES = 1e-15
-"""Share of the largest entry of its column below which a pivot of a full matrix is rounding. In a step of 1e-14 s all
-that a force of 1 N does to the speed of a tonne is 1e-17 m/s: a small column is no singular one."""
+VANISHES = 1e-14
+"""Share of the numbers that a pivot is the difference of, below which it is rounding. Not of its column: in a step of
+1e-12 s all that the force of a brake does to the speed of 100 t is 1e-14 m/s, and still it is known by that alone."""
 REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
 """Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
 
@@ -124,7 +124,6 @@ def factorise_dense(factors):
     """LU with partial pivoting of the scaled full matrix, by columns, pivots stored as reciprocals."""
     n = factors.n
     a, order = reals(factors.at_matrix, n * n), indices(factors.at_pivot_rows, n)
-    largest = reals(factors.at_factor_work, n)
     if not scale_dense(factors):
         return SINGULAR
     for k in range(n):
@@ -136,7 +135,10 @@ def factorise_dense(factors):
         if pivot_row != k:
             for j in range(n):
                 a[j * n + k], a[j * n + pivot_row] = a[j * n + pivot_row], a[j * n + k]
-        if not abs(a[k * n + k]) > VANISHES * largest[k]:
+        terms = abs(a[k * n + k])
+        for j in range(k):
+            terms += abs(a[j * n + k] * a[k * n + j])
+        if not abs(a[k * n + k]) > VANISHES * terms:
             factors.culprit = k
             return SINGULAR
         inverse = 1.0 / a[k * n + k]
@@ -153,11 +155,8 @@ def factorise_dense(factors):
 
 @compiled
 def scale_dense(factors):
-    """Unknowns in units of their weight, rows by their largest entry; False where one is zero or not finite.
-
-    The largest entries of the columns go into `factor_work`.
-    """
-    n, of_column = factors.n, reals(factors.at_factor_work, factors.n)
+    """Unknowns in units of their weight, rows by their largest entry; False where one is zero or not finite."""
+    n = factors.n
     a = reals(factors.at_matrix, n * n)
     row_scale, column_scale = reals(factors.at_row_scale, n), reals(factors.at_column_scale, n)
     for i in range(n):
@@ -171,10 +170,6 @@ def scale_dense(factors):
         row_scale[i] = 1.0 / largest
         for j in range(n):
             a[j * n + i] *= row_scale[i]
-    for j in range(n):
-        of_column[j] = 0.0
-        for i in range(n):
-            of_column[j] = max(of_column[j], abs(a[j * n + i]))
     return True
 
 
