@@ -304,6 +304,51 @@ def test_a_component_of_a_library_takes_other_values(scene, library):
     same(made.system, fairlead.load(model.netlist.path, {"push": "4 N"}, libraries).system)
 
 
+REMEMBERS = """
+class Thermostat(Component):
+    \"\"\"Heats below 0 degC and not above 20 degC; between them it goes on as it came there.\"\"\"
+    room = Input("1", "Temperature in degC.", signed=True)
+    before = Parameter("1", "Temperature it comes from in degC.")
+    signal = Output("1", "1 while it heats.")
+    zones = Zones("off", "on")
+
+    def begins_in(p):
+        return "on" if p.before < 10 else "off"
+
+    @zone("off", "on")
+    def heats(p, zone):
+        return Law(signal=1.0 if zone == "on" else 0.0)
+
+    @guard("off", to="on", unit="1")
+    def cold(p, room):
+        return 0.0 - room
+
+    @guard("on", to="off", unit="1")
+    def warm(p, room):
+        return room - 20.0
+"""
+ROOM = """
+components:
+  room: {type: SignalSource, value: 15}
+  heater: {type: Thermostat, before: 25}
+  lag: {type: SignalLag, lag: 1 s}
+connections: [[room.signal, heater.room], [heater.signal, lag.value]]
+run: {stop: 10 ms}
+"""
+
+
+def test_a_number_may_say_in_which_zone_a_part_begins(scene, library):
+    """Nothing else follows it: no table, no start value and no code."""
+    libraries = (library(REMEMBERS),)
+    model = scene(ROOM, libraries)
+    assert set(model.run(out=None)["heater.signal"]) == {0.0}
+    for before, heats in ((5, 1.0), (25, 0.0)):
+        model = model.with_values({"heater.before": before})
+        assert model.rebuilt == ""
+        same(model.system, fairlead.load(model.netlist.path, {"heater.before": before}, libraries).system)
+        assert set(model.run(out=None)["heater.signal"]) == {heats}
+
+
 def test_a_station_that_works_out_a_curve_of_its_own_is_not_passed_over(monkeypatch):
     def rubs(p):
         return make(Coulomb, coulomb=2 * p.friction.coulomb)

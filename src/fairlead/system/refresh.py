@@ -95,11 +95,11 @@ def _with_numbers(
     memory["sample_period"] = samplers(blocks)["sample_period"]
     if tables is not old.tables:
         memory |= {"tables": tables.vector(), "time_place": time_places(blocks)}
+        other = {"kink_guard": kinks(blocks), "machine_zones": machine_zones(blocks, len(old.zones))}
+    if tables is not old.tables or any(_begin_by_values(was, now) for was, now in zip(old.blocks, blocks, strict=True)):
         memory["zones"] = np.zeros(len(old.zones), dtype=np.int64)
-        other = {
-            "timed_tables": first_pieces(blocks, memory["zones"], numbering.open_first), "zones": memory["zones"],
-            "kink_guard": kinks(blocks), "machine_zones": machine_zones(blocks, len(old.zones)),
-        }  # fmt: skip
+        timed = first_pieces(blocks, memory["zones"], numbering.open_first)
+        other |= {"timed_tables": timed, "zones": memory["zones"]}
     shared, end = shares(blocks)
     memory["blocks"] = rows(blocks, shared, end)["blocks"]
     memory["context"] = _addressed(memory)
@@ -111,6 +111,11 @@ def _with_numbers(
         machine_guards=machine_owners(blocks, len(old.zones)), memory=memory,
         working=set_apart(memory, blocks, samples=True), **other,
     )  # fmt: skip
+
+
+def _begin_by_values(was: Block, now: Block) -> bool:
+    """True if some of a block have other values, and these may say in which zone they begin."""
+    return now is not was and now.instances[0].type.answers.begins_in is not None
 
 
 def _addressed(memory: Memory) -> Integers:
