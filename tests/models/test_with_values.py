@@ -304,6 +304,34 @@ def test_a_component_of_a_library_takes_other_values(scene, library):
     same(made.system, fairlead.load(model.netlist.path, {"push": "4 N"}, libraries).system)
 
 
+RUBBED = """
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  damper: {type: Damper, damping: 50 N*s/m}
+  belt: {type: MotionSource, velocity: 0.2 m/s}
+  pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, coulomb: 0.6}}
+connections:
+  - [wall.flange, spring.a, damper.a]
+  - [spring.b, damper.b, pad.b]
+  - [belt.flange, pad.a]
+run: {stop: 2 s}
+"""
+
+
+@pytest.mark.parametrize("chain", [("0", "50"), ("50", "25", "0")])
+def test_damping_that_comes_or_goes_at_a_node_without_mass_is_another_structure(scene, chain):
+    """The node slides under 6 N, which the spring takes at once, or by and by:  6 N (1 - exp(-k t/d))."""
+    model = scene(RUBBED, **{"damper.damping": chain[0]})
+    assert model.system.numbering.rated.keys() == ({1} if chain[0] == "0" else set())
+    for before, now in itertools.pairwise(chain):
+        model = model.with_values({"damper.damping": now})
+        assert bool(model.rebuilt) == ((before == "0") != (now == "0"))
+        same(model.system, fairlead.load(model.netlist.path, {"damper.damping": now}).system)
+        held = 6.0 * (1 - (np.exp(-100 * 2.0 / float(now)) if now != "0" else 0.0))
+        assert model.run(out=None)["spring.tension"][-1] == pytest.approx(held, rel=1e-4)
+
+
 REMEMBERS = """
 class Thermostat(Component):
     \"\"\"Heats below 0 degC and not above 20 degC; between them it goes on as it came there.\"\"\"

@@ -13,7 +13,7 @@ without inertia", has the page.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -46,7 +46,7 @@ class Join(NamedTuple):
 
 def rated_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
     """Groups without inertia or damping of which a law reads the speed, and whose forces know the position."""
-    light = {k for k, g in enumerate(flat.groups) if g.free and g.mass == 0 and g.domain.mechanical}
+    light = _without_inertia(flat)
     if not light:
         return set()
     read, sprung, damped = set[int](), set[int](), set[int]()
@@ -66,6 +66,29 @@ def rated_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[in
     for k in found:
         found += (ends[k] & light) - damped - set(found)
     return set(found)
+
+
+def without_damping(flat: FlatModel, structures: Mapping[str, Structure]) -> set[tuple[str, str]]:
+    """What would follow a speed at a node without inertia, were its coefficient not zero: component, port or zone.
+
+    These zeros decide, with the connections, which groups are rated and which joins hold: with others, a model is of
+    another structure.
+    """
+    light = _without_inertia(flat)
+    if not light:
+        return set()
+    found = set()
+    for instance in flat.instances:
+        s = structures[instance.path]
+        texts = [(port, text) for port, text in s.dampings.items()
+                 if flat.place(PortRef(instance.path, port))[0] in light]  # fmt: skip
+        texts += [(zone, one["slope"]) for zone, here in s.joins.items() for one in here if _kind(one) == FIRM]
+        found |= {(instance.path, where) for where, text in texts if not number_of(text, instance.values)}
+    return found
+
+
+def _without_inertia(flat: FlatModel) -> set[int]:
+    return {k for k, g in enumerate(flat.groups) if g.free and g.mass == 0 and g.domain.mechanical}
 
 
 def geared_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
@@ -118,7 +141,7 @@ def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]
         s = structures[instance.path]
         for zone, here in s.joins.items():
             for one in here:
-                kind = HELD if one["slope"] == "held" else SOFT if not one["slope"] else FIRM
+                kind = _kind(one)
                 if kind == FIRM and not number_of(one["slope"], instance.values):
                     continue
                 weighed: dict[int, float] = {}
@@ -129,6 +152,11 @@ def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]
                 if weighed:
                     found.append(Join(instance.path, zone, kind, tuple(weighed), tuple(weighed.values())))
     return found
+
+
+def _kind(join: Mapping[str, Any]) -> int:
+    """What sort of join this is, as `flow_rates.joins` has written it."""
+    return HELD if join["slope"] == "held" else SOFT if not join["slope"] else FIRM
 
 
 def unfit_nodes(
