@@ -34,7 +34,7 @@ from fairlead.system.arrays.blocks import (
     parameter_of,
     place_of_input,
 )
-from fairlead.system.arrays.shares import rows, shares
+from fairlead.system.arrays.portions import portions, rows
 from fairlead.system.arrays.switching import kinks, machine_owners, machine_zones
 from fairlead.system.arrays.timing import first_pieces, samplers, time_places
 from fairlead.system.arrays.working import set_apart
@@ -100,8 +100,8 @@ def _with_numbers(
         memory["zones"] = np.zeros(len(old.zones), dtype=np.int64)
         timed = first_pieces(blocks, memory["zones"], numbering.open_first)
         other |= {"timed_tables": timed, "zones": memory["zones"]}
-    shared, end = shares(blocks)
-    memory["blocks"] = rows(blocks, shared, end)["blocks"]
+    laid, end = portions(blocks)
+    memory["blocks"] = rows(blocks, laid, end)["blocks"]
     memory["context"] = _addressed(memory)
     assert old.scales is not None, "a part has the numbers of the whole"
     run = flat.assembly.netlist.run

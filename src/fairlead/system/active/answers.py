@@ -23,7 +23,7 @@ from fairlead.kernels.structure import PIECES, Sum
 from fairlead.system.active.entrained import Entrained
 from fairlead.system.active.rest import Booleans, Floats, Integers
 from fairlead.system.arrays.blocks import Block
-from fairlead.system.arrays.shares import shares
+from fairlead.system.arrays.portions import portions
 from fairlead.system.compiled.asking import ask
 from fairlead.system.compiled.system import Instance
 
@@ -112,7 +112,7 @@ def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Ans
     """
     found = _Found()
     value = law = borders = 0
-    for number, (block, share) in enumerate(zip(system.blocks, shares(system.blocks)[0], strict=True)):
+    for number, (block, portion) in enumerate(zip(system.blocks, portions(system.blocks)[0], strict=True)):
         s = block.kernel.structure
         width = len(s.outputs) + len(s.targets) + len(s.ledger)
         of_groups, rows = _group_members(system, number), _rows(system, block)
@@ -121,7 +121,7 @@ def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Ans
             for j, sums in enumerate(said["values"]):
                 found.value(reach, sums, value + which * width + j)
             for slot, members in enumerate(said["guards"]):
-                guard, size = share.guards + which * s.slots + slot, len(members)
+                guard, size = portion.guards + which * s.slots + slot, len(members)
                 now = [guards[guard]] if size == 1 else list(of_groups[which, k : k + size].T)
                 found.guard(reach, members, (guard, law + which, borders + pieces), now)
                 borders, k = borders + len(which), k + (size if size > 1 else 0)
