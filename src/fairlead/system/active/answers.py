@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.keys import OWN, key
-from fairlead.component.piecewise import DEGREE, FAR, STRIDE
+from fairlead.component.piecewise import DEGREE, FAR, STRIDE, TERMS
 from fairlead.kernels import layout
 from fairlead.kernels.structure import PIECES, Sum
 from fairlead.system.active.entrained import Entrained
@@ -29,8 +29,6 @@ from fairlead.system.compiled.system import Instance
 
 NOBODY = -2
 """In the place of a row: an output, which is a signal or nothing."""
-FIRST_TERM = 3
-"""Where in a row of a table its coefficients begin."""
 
 
 class Laws(NamedTuple):
@@ -225,7 +223,7 @@ def _rows(system: Instance, block: Block) -> Integers:
 
 def _kinds(tables: Floats, rows: Integers) -> Integers:
     """Of what kind every piece is, as a position in PIECES."""
-    terms = tables[rows[..., None] + FIRST_TERM + np.arange(DEGREE + 1)]
+    terms = tables[rows[..., None] + TERMS + np.arange(DEGREE + 1)]
     level = (terms[..., 1:] == 0).all(axis=-1)
     kinds = [level & (terms[..., 0] == 0), level & (terms[..., 0] == 1), level]
     return np.select(kinds, [0, 1, 2], 3)

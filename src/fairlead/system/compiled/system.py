@@ -262,7 +262,7 @@ class System:
                 swings = block.parameters[:, amplitude] != 0
                 fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
         if self._all_given and not self.linear:
-            lengths = [table.polynomial.rows[:, 1] - table.polynomial.rows[:, 0] for table in self.timed_tables]
+            lengths = [table.polynomial.right - table.polynomial.left for table in self.timed_tables]
             longest = max((float(one[one < FAR].max(initial=0.0)) for one in lengths), default=0.0)
             parts, pieces = LOOKED_AT, longest / LOOKED_AT or math.inf
         return min(2 * math.pi / (parts * fastest) if fastest else math.inf, pieces)
