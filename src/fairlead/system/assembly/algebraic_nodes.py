@@ -265,7 +265,7 @@ def rated_terms(numbering: Numbering, found: Sequence[Join]) -> list[tuple[int, 
 def add_rated_entries(entries: Entries, memory: Memory, m: int, first: int) -> None:
     """Add what df/dy has more: rates of balances in rows of nodes; at `first` among the partials begin the shares."""
     for k, (i, j) in enumerate(memory["rated_terms"].tolist()):
-        row, z = memory["rated"][i, 0] + m, memory["rated"][j, 1]
+        row, z = memory["rated"][i, layout.RATED_ROW] + m, memory["rated"][j, layout.RATED_RATE]
         entries.add(np.array([row]), np.array([z]), np.array([first + k]), np.ones(1))
 
 

@@ -126,7 +126,7 @@ class System:
     @property
     def beyond_row(self) -> Integers:
         """Machines of contacts that may close a circle: a switch changes more than their own row."""
-        machines = distinct(self.memory["circle_pairs"][:, 5])
+        machines = distinct(self.memory["circle_pairs"][:, layout.CIRCLE_MACHINE])
         return machines[machines >= 0]
 
     @property
@@ -157,7 +157,7 @@ class System:
         if guard < 0:
             return "time"
         first = int(self.memory["guard_machines"][guard])
-        slot = int(self.memory["guard_place"][guard, 3])
+        slot = int(self.memory["guard_place"][guard, layout.GUARD_SLOT])
         block, _ = self.machine_guards[first]
         s = block.kernel.structure
         zone = s.zones[before] if machine == first and len(s.zones) > 1 and before < len(s.zones) else None

@@ -1,11 +1,11 @@
-"""Who answers to what in the zones in force: the facts of every kernel (dependence.py) laid over one System.
+"""What depends on what in the zones in force: the facts of every kernel (kernels/dependence.py) laid over one System.
 
 A value is a signal of one instance that something reads, what it adds to one row, or its line of the energy ledger. It
-answers to a place of z if it depends on a sum of inputs that changes when that place does: two ends of a spring that
+depends on a place of z if it does on a sum of inputs that changes when that place does: two ends of a spring that
 follow one place as fast as each other do not change their difference. So do the members of guards.
 
 Nothing is evaluated but the sums of coefficients and, of guards that are groups, the members: one that is negative and
-answers to nothing keeps its guard from firing.
+depends on nothing keeps its guard from firing.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class Laws(NamedTuple):
     """The laws of a System, instance after instance of all blocks, and their values.
 
     value     of the law `law`; it is the signal z[`gives`] or goes to the row w[`row`] (-1: neither)
-    law       `restless` ones vary with nothing that they read, `zoned` ones may answer otherwise in another
-              zone, and some have `unknowns` of their own
+    law       `restless` ones vary with nothing that they read, `zoned` ones may depend on other places in
+              another zone, and some have `unknowns` of their own
     """
 
     law: Integers
@@ -47,7 +47,7 @@ class Laws(NamedTuple):
     unknowns: Booleans
 
 
-class Answers(NamedTuple):
+class Dependences(NamedTuple):
     """Pairs (value, z) and (member, z, slope): what stands there moves the value, or the member so much."""
 
     value: Integers
@@ -103,10 +103,10 @@ def _values(block: Block, dump: int) -> tuple[Integers, Integers, Integers]:
     )
 
 
-def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Answers:
-    """Who answers to what in the zones in force, with what is entrained; `guards` as they are there.
+def dependences(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Dependences:
+    """What depends on what in the zones in force, with what is entrained; `guards` as they are there.
 
-    The bonds of what is entrained answer to nothing: they are what makes it follow.
+    The bonds of what is entrained depend on nothing: they are what makes it follow.
     """
     found = _Found()
     value = law = borders = 0
@@ -124,7 +124,7 @@ def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Ans
                 found.guard(reach, members, (guard, law + which, borders + pieces), now)
                 borders, k = borders + len(which), k + (size if size > 1 else 0)
         value, law = value + block.count * width, law + block.count
-    return found.answers(of, along)
+    return found.dependences(of, along)
 
 
 class _Reach:
@@ -181,13 +181,13 @@ class _Found:
             self._members.append((*of, value, np.full(len(value), slope_of_port)))
             self._count += len(value)
 
-    def answers(self, of: Laws, along: Entrained) -> Answers:
+    def dependences(self, of: Laws, along: Entrained) -> Dependences:
         """All of it, but what the bonds of what is entrained give, and what nobody wants to know."""
         value, value_z = _columns(self._values, np.int64, np.int64)
         told = ((of.gives >= 0) | (of.row != NOBODY))[value] & ~np.isin(of.law[value], along.laws)
         members = Members(*_columns(self._members, *3 * (np.int64,), *2 * (np.float64,)))
         member, member_z, slope = _columns(self._slopes, np.int64, np.int64, np.float64)
-        return Answers(value[told], value_z[told], member, member_z, slope, members)
+        return Dependences(value[told], value_z[told], member, member_z, slope, members)
 
 
 def _columns(rows: Sequence[tuple[NDArray[Any], ...]], *types: Any) -> list[NDArray[Any]]:
