@@ -17,7 +17,7 @@ from typing import Protocol
 
 from fairlead.analysis.statics.start_profile import laid_under_statics
 from fairlead.component.again import again
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.component.registry import known_types
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel

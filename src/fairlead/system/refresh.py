@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.component.keys import INPUT, key
 from fairlead.component.values import number_given, polynomial
 from fairlead.errors import ModelError

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.component.assembly import PortRef
 from fairlead.component.declare import Carries
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import PARAMETER, key
 from fairlead.system.active.rest import Floats, Integers
 from fairlead.system.arrays.blocks import Block, place_of_motion

@@ -23,7 +23,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import OWN, key
 from fairlead.system.active.dependences import Laws, dependences
 from fairlead.system.active.entrained import Entrained

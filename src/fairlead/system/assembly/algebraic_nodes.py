@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.keys import OWN, PORT, RATE, key, rate_of
 from fairlead.distinct import distinct
 from fairlead.errors import Fault
@@ -34,7 +34,7 @@ HELD, FIRM, SOFT = 0, 1, 2
 """What joins speeds: a row that holds, a force in proportion to a speed, one that depends on it in another way."""
 
 
-class Join(NamedTuple):
+class SpeedJoin(NamedTuple):
     """What joins the speeds of rated groups in one zone of an instance."""
 
     path: str
@@ -134,7 +134,7 @@ def touching(flat: FlatModel, groups: set[int]) -> set[str]:
     return {ref.instance for k in groups for node in flat.groups[k].nodes for ref in flat.nodes[node].ports}
 
 
-def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]) -> list[Join]:
+def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]) -> list[SpeedJoin]:
     """All that may join the speeds of rated groups to one another, or to what is known."""
     found = []
     for instance in flat.instances:
@@ -150,7 +150,7 @@ def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]
                     if index in groups:
                         weighed[index] = weighed.get(index, 0.0) + ratio * weight
                 if weighed:
-                    found.append(Join(instance.path, zone, kind, tuple(weighed), tuple(weighed.values())))
+                    found.append(SpeedJoin(instance.path, zone, kind, tuple(weighed), tuple(weighed.values())))
     return found
 
 
@@ -255,7 +255,7 @@ def _yielding(flat: FlatModel, structures: Mapping[str, Structure], groups: set[
     return {flat.place(ref)[0] for ref in refs}
 
 
-def rated_terms(numbering: Numbering, found: Sequence[Join]) -> list[tuple[int, int]]:
+def rated_terms(numbering: Numbering, found: Sequence[SpeedJoin]) -> list[tuple[int, int]]:
     """Pairs (i, j) of rated nodes: the row of i may have the rate of the balance of j."""
     number = {index: k for k, index in enumerate(numbering.rated)}
     joined = connected_parts(of_paths(range(len(number)), ([number[index] for index in one.groups] for one in found)))

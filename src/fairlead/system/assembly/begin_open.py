@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.timing import OPEN

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.errors import listing
 from fairlead.flatten.flat_model import FlatModel

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from fairlead.component.assembly import PortRef
 from fairlead.component.base import Family
 from fairlead.component.declare import ELECTRICAL, ROTATIONAL
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.component.replies import is_bundled
 from fairlead.errors import Fault, Location

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block
