@@ -28,8 +28,6 @@ from fairlead.component.answers import (
     EVERYWHERE,
     Answers,
     answers_of,
-    method,
-    misspelt,
     unfit,
 )
 from fairlead.component.class_checks import DeclarationError, check, check_fixed, demand, members_of
@@ -65,7 +63,9 @@ from fairlead.component.given import (
     Text,
     Waveform,
 )  # fmt: skip
+from fairlead.component.kinds_of_answers import method
 from fairlead.component.replies import held_to, is_bundled
+from fairlead.component.slips import misspelt
 
 PARAMETER_KINDS = (
     Parameter, Choice, Count, Name, File, Entries, Text, Matrix, Part, Block, Table, Waveform, Stations
