@@ -86,7 +86,7 @@ def same(one, two):
     same_memory(one, two)
     tables = [[(t.path, t.machine, t.base, plain(t.polynomial.rows)) for t in s.timed_tables] for s in (one, two)]
     assert tables[0] == tables[1]
-    owners = [[(b.instances[i].path, i) for b, i in s.machine_guards] for s in (one, two)]
+    owners = [[(b.instances[i].path, i) for b, i in s.machine_owners] for s in (one, two)]
     assert owners[0] == owners[1]
 
 

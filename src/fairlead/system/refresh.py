@@ -108,7 +108,7 @@ def _with_numbers(
     return replace(
         old, flat=flat, numbering=numbering, blocks=blocks, tables=tables, initial=begin, accuracy=run.accuracy,
         start=run.start, scales=scales(flat, numbering, old.scales.rounding),
-        machine_guards=machine_owners(blocks, len(old.zones)), memory=memory,
+        machine_owners=machine_owners(blocks, len(old.zones)), memory=memory,
         working=set_apart(memory, blocks, samples=True), **other,
     )  # fmt: skip
 

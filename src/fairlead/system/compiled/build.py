@@ -111,7 +111,7 @@ def build(
         n_swings=end.swings if memory["counts"][layout.SWINGS].any() else 0,
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),
-        machine_guards=machine_owners(blocks, len(machines)),
+        machine_owners=machine_owners(blocks, len(machines)),
         signals=signals(flat, blocks, laid, numbering) if whole else [],
         memory=memory,
         working=working,
