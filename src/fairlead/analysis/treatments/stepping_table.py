@@ -3,7 +3,7 @@
 A class is found by facts of the compiled system: what laws declare, and what was traced of them. No name decides.
 
     INSIDE     switches happen inside steps: the cost does not depend on how many contacts switch in one
-    LANDED     every step ends at the first switch in it, as those of `rodas` do (integrate/located_step.py)
+    LANDED     every step ends at the first switch in it, as those of `rodas` do (integrate/stepping/located_step.py)
     REFUSED    the run does not begin, and names the part and the engine to take
 
 Up to `Run.most_located` machines (contacts, stops, tables: all that has zones) every scene is LANDED, since few
