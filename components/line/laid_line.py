@@ -16,7 +16,7 @@ from fairlead.components.route.window import Reach
 
 from fairlead.component.alike import Parts, agree
 from fairlead.component.along import OfLine
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault
 
 

@@ -9,8 +9,8 @@ from typing import Any
 from fairlead.components.friction.contact import Contact
 from fairlead.components.mechanics.ground import Ground
 
+from fairlead.component.assembly import HandedOn, Join, PortRef
 from fairlead.component.declare import Input
-from fairlead.component.instantiate import HandedOn, Join, PortRef
 from fairlead.component.values import Values
 
 

@@ -29,7 +29,7 @@ from fairlead.components.route.untouched import Untouched
 from fairlead.components.route.winch import Winch
 from fairlead.components.route.window import Reach, Window, total
 
-from fairlead.component.instantiate import PortRef, with_other
+from fairlead.component.assembly import PortRef, with_other
 
 FIXED_DEVICE = 1e9  # kg; what a body bound to a fixed device counts as
 SIDES = ("in", "out")

@@ -15,6 +15,7 @@ from fairlead.errors import Fault, ModelError
 from fairlead.integrate import Run
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
+from fairlead.system.compiled.named_parts import kept_positions, least_friction_left
 from fairlead.system.numbering.loops import loop_remarks
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     if (reason := beyond(system, settings)) is not None:
         return "rodas", f"auto: {reason}"
     contacts = int(np.count_nonzero(system.holder >= 0))
-    smooth = system.linear and system.least_left >= 1 - settings.accuracy  # of order one at a larger jump
+    smooth = system.linear and least_friction_left(system) >= 1 - settings.accuracy  # of order one at a larger jump
     engine, reason = choose(contacts, smooth, settings.accuracy)
     if engine == "stepping" and ((found := handling(system, settings)).way != INSIDE or found.of.auto):
         return "rodas", f"auto: it locates every switch, and {found.why}"
@@ -44,7 +45,7 @@ def engine_remarks(settings: RunSettings, system: System) -> list[Fault]:
 
 def refused(settings: RunSettings, system: System) -> Fault | None:
     """Why the engine that `run.engine` asks for does not run this model, None where it does."""
-    if settings.engine == "ida" and (kept := system.kept_positions):
+    if settings.engine == "ida" and (kept := kept_positions(system)):
         what = f"run.engine: ida does not bring positions back to what {few(kept)} keeps after every step"
         return Fault(None, f"{what}, so they would drift.", "Take run.engine: rodas (or auto).")
     return refusal(system, settings)

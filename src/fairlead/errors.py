@@ -125,12 +125,6 @@ class NumericalError(FairleadError):
     exit_code = 3
 
 
-class BudgetError(FairleadError):
-    """A budget of the run (wall time, steps, events) is used up; what was computed is kept."""
-
-    exit_code = 4
-
-
 def without_echoes(faults: Iterable[Fault], earlier: Iterable[Fault]) -> list[Fault]:
     """The faults of a later stage, less those at a place that an earlier stage has blamed already.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from fairlead.errors import Fault, ModelError
 
 if TYPE_CHECKING:
-    from fairlead.component.instantiate import Assembly
+    from fairlead.component.assembly import Assembly
     from fairlead.flatten.flat_model import FlatModel
     from fairlead.netlist.netlist import Netlist
 

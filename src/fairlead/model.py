@@ -38,7 +38,7 @@ from fairlead.errors import (
 from fairlead.found import all_beside, in_order, of_start_and_border, with_origin
 
 if TYPE_CHECKING:
-    from fairlead.component.instantiate import Assembly
+    from fairlead.component.assembly import Assembly
     from fairlead.flatten.flat_model import FlatModel
     from fairlead.netlist.includes import Sources
     from fairlead.netlist.keywords import RunKeywords
@@ -109,7 +109,7 @@ class Model:
     @functools.cached_property
     def assembly(self) -> Assembly:
         """Component instances. Raises ModelError with everything that `check` would tell."""
-        from fairlead.component.instantiate import survey as instantiate
+        from fairlead.component.instantiate import instantiate
         from fairlead.component.registry import known_types
 
         assembly, faults = instantiate(self.netlist, known_types(self.libraries))
@@ -154,7 +154,7 @@ class Model:
         from fairlead.analysis.record.names import unknown_signals
         from fairlead.analysis.remarks.remarks import remarks
         from fairlead.analysis.statics.start_profile import laid_under_statics
-        from fairlead.component.instantiate import survey as instantiate
+        from fairlead.component.instantiate import instantiate
         from fairlead.component.registry import known_types
         from fairlead.engine import engine_remarks
         from fairlead.errors import without_echoes

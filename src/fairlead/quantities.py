@@ -176,6 +176,11 @@ def computable_size(value: object, unit: str) -> float:
     return number
 
 
+def digits(text: str) -> int | None:
+    """The number that one to nine plain digits are, which counts or numbers something; None for any other text."""
+    return int(text) if text.isascii() and text.isdecimal() and len(text) < 10 else None
+
+
 def whole(value: object) -> object:
     """A whole number for what is one to everybody but a parser, such as 1e6 or a number in quotes; else as it is."""
     try:

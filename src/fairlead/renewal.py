@@ -17,13 +17,14 @@ from typing import Protocol
 
 from fairlead.analysis.statics.start_profile import laid_under_statics
 from fairlead.component.again import again
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.component.registry import known_types
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.flatten import begins_otherwise
 from fairlead.flatten.same_wiring import difference
 from fairlead.netlist.netlist import Netlist
+from fairlead.system.assembly.algebraic_nodes import without_damping
 from fairlead.system.compile import energy_counted
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.contact_cycles import weighed
@@ -52,23 +53,26 @@ def renew(old: Stages, new: Stages) -> None:
         instances = tuple(made.instances.values())
         new.assembly, new.flattened = made, replace(old.flattened, assembly=made, instances=instances)
         new.flat = laid_under_statics(new.flattened)
-    why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat) or _shares(system, new.flat)
+    why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat) or _by_values(system, new.flat)
     if why:
         new.rebuilt = f"All stages were made anew: {why}."
     else:
         new.system = refreshed(system, new.flat)
 
 
-def _shares(system: System, flat: FlatModel) -> str:
-    """What else is left of it: a tie whose values say how contacts about it share a load, as the ratio of a lever."""
+def _by_values(system: System, flat: FlatModel) -> str:
+    """What else is left of it: values that the plans of a System follow, and not its numbers alone.
+
+    Such are the ratio of a lever about which contacts share a load, and a damping that is zero at a node without mass.
+    """
     about = {pair.path for pair in system.numbering.circles}
-    for block in system.blocks if about else ():
-        structure = block.kernel.structure
-        for instance in block.instances if structure.ratios else ():
-            now = next(one for one in flat.instances if one.path == instance.path)
-            if instance.path in about and weighed(instance, structure) != weighed(now, structure):
-                return f"{instance.path} shares otherwise what is held about it"
-    return ""
+    structures = {i.path: block.kernel.structure for block in system.blocks for i in block.instances}
+    for was, now in zip(system.flat.instances, flat.instances, strict=True) if about else ():
+        if was.path in about and weighed(was, structures[was.path]) != weighed(now, structures[was.path]):
+            return f"{was.path} shares otherwise what is held about it"
+    before, after = (without_damping(one, structures) for one in (system.flat, flat))
+    return next((f"{path} has {'no damping' if (path, at) in after else 'damping'} now, at a node without mass"
+                 for path, at in sorted(before ^ after)), "")  # fmt: skip
 
 
 def _ledger(one: FlatModel, other: FlatModel) -> str:

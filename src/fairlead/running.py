@@ -49,6 +49,7 @@ from fairlead.processor import processor
 from fairlead.result import Result
 from fairlead.results import MemoryRun, RunDirectory, Signal, Sink
 from fairlead.system.assembly.left_open import left_open
+from fairlead.system.compiled.named_parts import kept_positions, undeclared
 from fairlead.system.compiled.out_of_range import beyond_their_tables
 from fairlead.versions import versions
 from fairlead.watch import Watch, least_jumps
@@ -258,12 +259,12 @@ def _energy(outcome: Outcome, watch: Watch, asked: Run) -> dict[str, Any]:
         summary["known_to"] = known_to(
             outcome.problem, watch.accuracy, outcome.counters.steps if asked.engine == "ida" else 0
         )
-    return judged(summary, watch.system.undeclared, own_classes(watch.system))
+    return judged(summary, undeclared(watch.system), own_classes(watch.system))
 
 
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:
     """Steps brought back to relations of positions, and the farthest way in error weights; None where none are kept."""
-    return {"steps": outcome.counters.projections, "most": outcome.most_moved} if system.kept_positions else None
+    return {"steps": outcome.counters.projections, "most": outcome.most_moved} if kept_positions(system) else None
 
 
 def _status(outcome: Outcome) -> str:

@@ -28,7 +28,7 @@ from fairlead.system.arrays.working import discrete, offsets
 from fairlead.system.compiled.system import Instance, System
 
 if TYPE_CHECKING:
-    from fairlead.component.instantiate import Assembly
+    from fairlead.component.assembly import Assembly
     from fairlead.netlist.netlist import Netlist
 
 

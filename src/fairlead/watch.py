@@ -27,12 +27,13 @@ from fairlead.analysis.record.wind_up import WindUp
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
 from fairlead.results import Sink
+from fairlead.results.curves import AFTER, BEFORE, INSIDE, ORDINARY
 
 if TYPE_CHECKING:
     from fairlead.system.arrays.recording import OutputSignal, Recording
     from fairlead.system.compiled.system import System
 
-SIDES = np.array([0, -1, +1, 2], dtype=np.int8)  # as the results do: ordinary, before an event, after it, inside a step
+SIDES = np.array([ORDINARY, BEFORE, AFTER, INSIDE], dtype=np.int8)  # by the side of a row of `integrate.problem.Block`
 MOST_JUMPS_TOLD = 5
 ZoneChange = tuple[float, str, str, str, str]  # when [s], whose, zones before and after, guard
 CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none

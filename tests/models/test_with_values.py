@@ -86,7 +86,7 @@ def same(one, two):
     same_memory(one, two)
     tables = [[(t.path, t.machine, t.base, plain(t.polynomial.rows)) for t in s.timed_tables] for s in (one, two)]
     assert tables[0] == tables[1]
-    owners = [[(b.instances[i].path, i) for b, i in s.machine_guards] for s in (one, two)]
+    owners = [[(b.instances[i].path, i) for b, i in s.machine_owners] for s in (one, two)]
     assert owners[0] == owners[1]
 
 
@@ -302,6 +302,79 @@ def test_a_component_of_a_library_takes_other_values(scene, library):
     made = model.with_values(push="4 N")
     assert made.rebuilt == ""
     same(made.system, fairlead.load(model.netlist.path, {"push": "4 N"}, libraries).system)
+
+
+RUBBED = """
+components:
+  wall: {type: Ground}
+  spring: {type: Spring, stiffness: 100 N/m}
+  damper: {type: Damper, damping: 50 N*s/m}
+  belt: {type: MotionSource, velocity: 0.2 m/s}
+  pad: {type: Contact, normal_force: 10 N, curve: {curve: coulomb, coulomb: 0.6}}
+connections:
+  - [wall.flange, spring.a, damper.a]
+  - [spring.b, damper.b, pad.b]
+  - [belt.flange, pad.a]
+run: {stop: 2 s}
+"""
+
+
+@pytest.mark.parametrize("chain", [("0", "50"), ("50", "25", "0")])
+def test_damping_that_comes_or_goes_at_a_node_without_mass_is_another_structure(scene, chain):
+    """The node slides under 6 N, which the spring takes at once, or by and by:  6 N (1 - exp(-k t/d))."""
+    model = scene(RUBBED, **{"damper.damping": chain[0]})
+    assert model.system.numbering.rated.keys() == ({1} if chain[0] == "0" else set())
+    for before, now in itertools.pairwise(chain):
+        model = model.with_values({"damper.damping": now})
+        assert bool(model.rebuilt) == ((before == "0") != (now == "0"))
+        same(model.system, fairlead.load(model.netlist.path, {"damper.damping": now}).system)
+        held = 6.0 * (1 - (np.exp(-100 * 2.0 / float(now)) if now != "0" else 0.0))
+        assert model.run(out=None)["spring.tension"][-1] == pytest.approx(held, rel=1e-4)
+
+
+REMEMBERS = """
+class Thermostat(Component):
+    \"\"\"Heats below 0 degC and not above 20 degC; between them it goes on as it came there.\"\"\"
+    room = Input("1", "Temperature in degC.", signed=True)
+    before = Parameter("1", "Temperature it comes from in degC.")
+    signal = Output("1", "1 while it heats.")
+    zones = Zones("off", "on")
+
+    def begins_in(p):
+        return "on" if p.before < 10 else "off"
+
+    @zone("off", "on")
+    def heats(p, zone):
+        return Law(signal=1.0 if zone == "on" else 0.0)
+
+    @guard("off", to="on", unit="1")
+    def cold(p, room):
+        return 0.0 - room
+
+    @guard("on", to="off", unit="1")
+    def warm(p, room):
+        return room - 20.0
+"""
+ROOM = """
+components:
+  room: {type: SignalSource, value: 15}
+  heater: {type: Thermostat, before: 25}
+  lag: {type: SignalLag, lag: 1 s}
+connections: [[room.signal, heater.room], [heater.signal, lag.value]]
+run: {stop: 10 ms}
+"""
+
+
+def test_a_number_may_say_in_which_zone_a_part_begins(scene, library):
+    """Nothing else follows it: no table, no start value and no code."""
+    libraries = (library(REMEMBERS),)
+    model = scene(ROOM, libraries)
+    assert set(model.run(out=None)["heater.signal"]) == {0.0}
+    for before, heats in ((5, 1.0), (25, 0.0)):
+        model = model.with_values({"heater.before": before})
+        assert model.rebuilt == ""
+        same(model.system, fairlead.load(model.netlist.path, {"heater.before": before}, libraries).system)
+        assert set(model.run(out=None)["heater.signal"]) == {heats}
 
 
 def test_a_station_that_works_out_a_curve_of_its_own_is_not_passed_over(monkeypatch):

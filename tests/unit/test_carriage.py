@@ -5,7 +5,7 @@ import pytest
 
 from fairlead.integrate import Run, integrate, parts
 from fairlead.system.active import entrained
-from fairlead.system.active.answers import answers, laws
+from fairlead.system.active.dependences import dependences, laws
 from fairlead.system.active.entrained import nothing_entrained
 from fairlead.system.compiled.asking import call, guards_at
 from tests.models.test_carried import CLASSES, CONTROLLED, SCENE
@@ -28,7 +28,7 @@ def test_a_spring_whose_ends_move_alike_answers_to_nothing(scene, ratio, answeri
     along = nothing_entrained(system)
     if ratio is not None:
         along.place[b], along.ratio[b] = a, ratio
-    found = answers(system, laws(system), along, guards_at(system, 0.0, np.zeros(system.n)))
+    found = dependences(system, laws(system), along, guards_at(system, 0.0, np.zeros(system.n)))
     assert bool(np.isin(found.value_z, (a, b)).any()) == answering
 
 

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.cli.summary import summary_rows
-from fairlead.errors import BudgetError, FairleadError, Fault, Location, ModelError, NumericalError, UsageError
+from fairlead.errors import FairleadError, Fault, Location, ModelError, NumericalError, UsageError
 
 FINISHED = {
     "status": "finished",
@@ -155,8 +155,8 @@ def test_json_gives_the_mistakes_with_their_places(command: Command) -> None:
 
 @pytest.mark.parametrize(
     ("error", "code"),
-    [(MISTAKES, 1), (NumericalError("NaN"), 3), (BudgetError("max_steps"), 4), (KeyboardInterrupt(), 130)],
-    ids=["model", "numerical", "budget", "ctrl-c"],
+    [(MISTAKES, 1), (NumericalError("NaN"), 3), (KeyboardInterrupt(), 130)],
+    ids=["model", "numerical", "ctrl-c"],
 )
 def test_each_kind_of_failure_has_its_exit_code(command: Command, error: BaseException, code: int) -> None:
     answer = command("run", "belt", model=StandIn(raises=error))

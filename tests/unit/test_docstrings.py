@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pathlib
 import re
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -38,6 +39,24 @@ def test_it_says_what_it_does_and_what_its_arguments_are(name):
     if not inspect.isclass(OFFERED[name]):
         asked = [one for one in inspect.signature(OFFERED[name]).parameters if one not in ("self", "cls")]
         assert [one for one in asked if not re.search(rf"\b{one}\b", said)] == []
+
+
+SOURCES = pathlib.Path(fairlead.__file__).parent
+EXAMPLES = {"file.py", "mine.py", "NAME.py"}
+"""What users may call a file of theirs."""
+
+
+def test_files_that_the_source_names_exist():
+    """By their names, or by the end of their paths; a reader who follows a name should come to something."""
+    root = pathlib.Path(__file__).parents[2]
+    folders = ("src", "components", "tests", "benchmarks", "docs", "building")
+    known = [f"/{path.relative_to(root).as_posix()}" for folder in folders for path in (root / folder).rglob("*.py")]
+    lost = []
+    for path in SOURCES.rglob("*.py"):
+        for name in re.findall(r"(?<![\w./-])((?:\w+/)*\w+\.py)\b", path.read_text(encoding="utf-8")):
+            if name not in EXAMPLES and not any(one.endswith(f"/{name}") for one in known):
+                lost.append((path.relative_to(SOURCES).as_posix(), name))
+    assert not lost
 
 
 def test_there_is_much_to_look_at():

@@ -22,7 +22,7 @@ def test_every_error_carries_a_code_of_the_list() -> None:
     kinds = [one for one in named if issubclass(one, errors.FairleadError)]
     assert len(kinds) > 4
     assert {kind.exit_code for kind in kinds} <= set(exit_codes.MEANINGS)
-    pairs = [(errors.ModelError, "MODEL_ERROR"), (errors.UsageError, "USAGE"), (errors.BudgetError, "BUDGET"),
+    pairs = [(errors.ModelError, "MODEL_ERROR"), (errors.UsageError, "USAGE"),
              (errors.NumericalError, "NUMERICAL_FAILURE")]  # fmt: skip
     for kind, name in pairs:
         assert kind.exit_code == getattr(exit_codes, name)

@@ -6,11 +6,13 @@ import pathlib
 import numpy as np
 import pytest
 
+from fairlead.component import piecewise
 from fairlead.component.given import Table, Waveform
 from fairlead.component.piecewise import constant, linear_table, monotone_cubic_table, pieces
 from fairlead.component.tables import read_table
 from fairlead.component.wave import added
 from fairlead.component.waveforms import read_waveform
+from fairlead.kernels import layout
 
 HERE = pathlib.Path()
 X, Y = [0.0, 1.0, 2.5, 3.0], [1.0, 3.0, 3.0, -1.0]
@@ -124,3 +126,16 @@ def test_a_table_in_a_file_is_read_past_its_heading(tmp_path):
     (tmp_path / "curve.csv").write_text("slip, coefficient\n# measured\n0, 0.4\n0.1, 0.3\n")
     table = read_table({"file": "curve.csv"}, Table("m/s", "1"), tmp_path)
     assert table(0.05) == pytest.approx(0.35)
+
+
+def test_a_table_jumps_at_a_border_only_and_by_the_difference_of_its_pieces():
+    """Left of 1 it is 2 (x - 1), about its right border, and right of it 3 + (x - 1)."""
+    step = pieces([1.0], [[0.0, 2.0], [3.0, 1.0]])
+    assert (step.jump_at(1.0), step.jump_at(1.0 + 1e-12), step.jump_at(-1e300)) == (3.0, 0.0, 0.0)
+    assert not step.is_continuous
+    assert step.borders == [1.0]
+
+
+def test_kernels_read_rows_as_tables_write_them():
+    """Compiled code has numbers of its own for them (kernels/layout.py)."""
+    assert (layout.STRIDE, layout.RIGHT) == (piecewise.STRIDE, piecewise.RIGHT)

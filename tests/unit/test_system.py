@@ -9,7 +9,7 @@ import pytest
 
 import fairlead
 from fairlead.errors import ModelError
-from fairlead.system.assembly.determinacy import _unmatched
+from fairlead.system.assembly.matching import unmatched
 
 PINION = """\
 schema: 1
@@ -188,7 +188,7 @@ def test_the_matching_finds_as_many_pairs_as_there_are():
     for _ in range(60):
         n = int(rng.integers(2, 9))
         full = (rng.random((n, n)) < 0.3) * rng.uniform(1, 2, (n, n))
-        parts = _unmatched([set(np.flatnonzero(full[:, column]).tolist()) for column in range(n)])
+        parts = unmatched([set(np.flatnonzero(full[:, column]).tolist()) for column in range(n)])
         assert bool(parts) == (np.linalg.matrix_rank(full) < n)
         for part in parts:
             rows = {row for column in part for row in np.flatnonzero(full[:, column])}

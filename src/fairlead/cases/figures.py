@@ -24,7 +24,7 @@ from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.analysis.record.suggestion import inside, suggest
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.patterns import picked
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import QuantityError, digits, si
 
 if TYPE_CHECKING:
     from fairlead.model import Model
@@ -169,9 +169,10 @@ class _Known:
                 f"Write it as in {kind}(pad, held, 2).",
             )
         text = given[2] if len(given) > 2 else "1"
-        if not text.isdecimal() or int(text) < 1:
+        number = digits(text)
+        if number is None or number < 1:
             raise _Wrong(f"{shown(text)} is no number of an event", "They are counted from 1.")
-        count = LAST if kind == "period" and len(given) < 3 else int(text)
+        count = LAST if kind == "period" and len(given) < 3 else number
         component = self._component(given[0])
         system = self.model.system
         zones = dict.fromkeys(zone for k, name in enumerate(system.machine_names) if name in component

@@ -14,6 +14,7 @@ from fairlead.analysis.record.step_rows import INSIDE, ORDINARY, curved_steps
 from fairlead.cases.figures import Figure
 from fairlead.patterns import matcher
 from fairlead.result import Result
+from fairlead.results.curves import INSIDE as INSIDE_A_STEP
 
 POINTS = {1: 3, 2: 5}
 """Of Gauss and Legendre's rule, by the power of the signal: exact for the dense output, which has degree 4."""
@@ -41,7 +42,7 @@ def extremes_of(result: Result, names: list[str]) -> tuple[float, float]:
     """The lowest and the highest value of some signals, rows of all steps and the curves through them."""
     values = result.columns(names)
     lowest, highest = [float(np.nanmin(values))], [float(np.nanmax(values))]
-    side = np.where(result.side == 2, INSIDE, ORDINARY).astype(np.int8)
+    side = np.where(result.side == INSIDE_A_STEP, INSIDE, ORDINARY).astype(np.int8)
     for inside in (1, 3):
         which = curved_steps(side, inside)
         if len(which):

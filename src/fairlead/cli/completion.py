@@ -55,12 +55,12 @@ def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
     from fairlead.analysis.record.declared_signals import signals_of
     from fairlead.component.bundled import bundled
-    from fairlead.component.instantiate import survey
+    from fairlead.component.instantiate import instantiate
 
     netlist = _netlist(ctx)
     if netlist is None:
         return []
-    assembly, _ = survey(netlist, bundled())
+    assembly, _ = instantiate(netlist, bundled())
     return _fitting((signal.name for signal in signals_of(assembly)), incomplete)
 
 

@@ -12,9 +12,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from fairlead.component.alike import Parts, agree
+from fairlead.component.assembly import Assembly, HandedOn, Instance, Line, PortRef
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.composition import expanded
-from fairlead.component.instantiate import Assembly, HandedOn, Instance, Line, PortRef, left_open, read_entry
+from fairlead.component.instantiate import left_open, read_entry
 from fairlead.component.scene import Scene, Tally
 from fairlead.component.values import Values, variant_of
 from fairlead.errors import Fault, ModelError

@@ -28,8 +28,6 @@ from fairlead.component.answers import (
     EVERYWHERE,
     Answers,
     answers_of,
-    method,
-    misspelt,
     unfit,
 )
 from fairlead.component.class_checks import DeclarationError, check, check_fixed, demand, members_of
@@ -65,7 +63,9 @@ from fairlead.component.given import (
     Text,
     Waveform,
 )  # fmt: skip
+from fairlead.component.kinds_of_answers import method
 from fairlead.component.replies import held_to, is_bundled
+from fairlead.component.slips import misspelt
 
 PARAMETER_KINDS = (
     Parameter, Choice, Count, Name, File, Entries, Text, Matrix, Part, Block, Table, Waveform, Stations
@@ -101,14 +101,14 @@ class Family(Declared, abstract=True):
     The head of a family is abstract and names the word: `key = "curve"`. A member is known by its
     `word` (its class name in lower_snake unless it says so), and becomes available by being imported; one of a library
     is in view while a model with that library is read, see `members.py`.
-    `bare` names the parameter that a value without a map stands for, in the member `bare_word`.
+    `bare` says what a value without a map stands for: a parameter of one member.
     """
 
     key: ClassVar[str] = ""
     word: ClassVar[str] = ""
     default_word: ClassVar[str] = ""
     offered: ClassVar[tuple[str, ...]] = ()  # words that messages name first
-    bare: ClassVar[tuple[str, str] | None] = None  # (word, parameter)
+    bare: ClassVar[tuple[str, str] | None] = None  # (word of the member, parameter)
     members: ClassVar[dict[str, type[Family]]]
     everyone: ClassVar[list[type[Family]]] = []  # members of all families, in the order in which they joined
     shown: ClassVar[tuple[int, ...]] = ()  # numbers of the libraries whose members are in view

@@ -9,11 +9,12 @@ import inspect
 from collections.abc import Callable, Iterable
 from typing import Any, ClassVar, Protocol
 
-from fairlead.component.answers import COMPOSITE, EVERYWHERE, Answers, arguments_of
+from fairlead.component.answers import COMPOSITE, EVERYWHERE, Answers
 from fairlead.component.declaration import Declaration
 from fairlead.component.declare import ROLES, Discrete, State
 from fairlead.component.defaults import misfits, odd_kinds
 from fairlead.component.given import Block, Table
+from fairlead.component.kinds_of_answers import arguments_of
 from fairlead.component.replies import AnswerError, is_bundled
 from fairlead.quantities import QuantityError, parse_unit
 

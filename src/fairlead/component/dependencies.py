@@ -15,9 +15,9 @@ from collections.abc import Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from fairlead.component.answers import SET_HERE
 from fairlead.component.declare import Derived, Guard, Sampled, Shared, ZoneLaw
 from fairlead.component.replies import is_bundled
+from fairlead.component.slips import SET_HERE
 from fairlead.component.values import Variant
 
 

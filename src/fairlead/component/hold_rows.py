@@ -5,7 +5,7 @@
 
 The accelerations a of a position row are unknowns of their own (`system/numbering/unknowns.py`), so the index is one
 and M stays constant; positions and speeds are brought back to gap = 0 and J v = 0 after every step
-(`integrate/position.py`). The force acts on the ports by virtual work,  -force J,  and so does no work.
+(`integrate/events/position.py`). The force acts on the ports by virtual work,  -force J,  and so does no work.
 
 c = GIVE J (1/m) J' is a compliance far below the accuracy of a result. Where others hold all that the row could move,
 as a contact that sticks holds the slider of a crank in its dead centre, no force is determined without it; with it,

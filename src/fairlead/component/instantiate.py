@@ -1,6 +1,6 @@
 """Second stage: entries of a netlist become component instances with parameters in SI.
 
-    assembly = instantiate(netlist, types)
+    assembly, faults = instantiate(netlist, types)
 
 Composites are expanded here, so that the next stage sees leaves only. All mistakes are reported at once.
 """
@@ -8,159 +8,29 @@ Composites are expanded here, so that the next stage sees leaves only. All mista
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from collections.abc import Mapping
 
-from fairlead.component.base import Composite, Declared, Expansion
+from fairlead.component.assembly import Assembly, Join, Line, PortRef
+from fairlead.component.base import Composite, Declared
 from fairlead.component.called_elsewhere import similar_type
 from fairlead.component.composition import expanded
-from fairlead.component.declaration import Declaration
-from fairlead.component.declare import PATH, Input, Output, Port
+from fairlead.component.declare import PATH
 from fairlead.component.effects import switch
+from fairlead.component.end_points import as_today, resolve
 from fairlead.component.friction_block import sound
 from fairlead.component.given import SWITCH
 from fairlead.component.parameters import read
 from fairlead.component.replies import AnswerError
-from fairlead.component.scene import FRAMEWORK_EFFECTS, Scene, TooManyParts, is_head
+from fairlead.component.scene import FRAMEWORK_EFFECTS, TooManyParts, is_head
 from fairlead.component.stand_in import stand_in
-from fairlead.component.values import Values, Variant, input_given, variant_of
+from fairlead.component.values import Values, input_given
 from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, shown
 from fairlead.netlist.braces import in_braces
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import EndPoint, Netlist, Value
-from fairlead.renamed import OUTPUTS, word_of_today
-
-ENDS = ("flange", "shaft", "port")
-"""Ports of many parts with one end, taken for one that is called otherwise."""
 
 
-@dataclass(frozen=True)
-class Instance:
-    """One leaf component: its path in the model, its class and numbers, and where it was written."""
-
-    path: str
-    values: Values
-    where: Location
-    variant: Variant
-
-    @property
-    def type(self) -> type[Declared]:
-        """The component class."""
-        return self.values.type
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.variant.label}    {self.where}"
-
-
-def with_other(instance: Instance, **given: Any) -> Instance:
-    """The same component with some other values, of the same variant."""
-    old = instance.values
-    values = Values(old.type, {**old.given, **given})
-    values.variant, values.effects = old.variant, old.effects
-    return replace(instance, values=values)
-
-
-class PortRef(NamedTuple):
-    """A port, input or output of a leaf."""
-
-    instance: str
-    port: str
-
-    def __str__(self) -> str:
-        return f"{self.instance}.{self.port}"
-
-
-class Join(NamedTuple):
-    """Ports that were written as connected, and where."""
-
-    ports: tuple[PortRef, ...]
-    where: Location
-
-
-@dataclass(frozen=True)
-class Line:
-    """A composite that runs along a route: its path, what it says of itself, and where it was written."""
-
-    path: str
-    values: Values
-    line: Any
-    where: Location
-
-
-@dataclass(frozen=True)
-class HandedOn:
-    """Values of a child that were made with parts of a line or a route, such as a curve: of what kind, from what."""
-
-    made: Values
-    kind: type[Declared]
-    given: dict[str, Any]
-
-
-@dataclass
-class Assembly:
-    """All leaves of a model with their joins; lines and routes wait for the flattening."""
-
-    netlist: Netlist
-    scene: Scene
-    types: Mapping[str, type[Declared]] = field(default_factory=dict)
-    instances: dict[str, Instance] = field(default_factory=dict)
-    joins: list[Join] = field(default_factory=list)
-    lines: dict[str, Line] = field(default_factory=dict)
-    routings: list[tuple[str, str, Location]] = field(default_factory=list)  # the two ends of a `path` connection
-    aliases: dict[str, PortRef] = field(default_factory=dict)  # outer name of an output or port -> the inner one
-    effects: dict[str, dict[str, str]] = field(default_factory=dict)  # component -> its effects, on or off
-    broken: set[str] = field(default_factory=set)  # components of the netlist that could not be made
-    stand_ins: set[str] = field(default_factory=set)  # made with other values, for there are mistakes in their own
-    entries: dict[str, Values] = field(default_factory=dict)  # of the components of the netlist
-    expansions: dict[str, Expansion] = field(default_factory=dict)  # of composites, however deep
-    handed_on: list[HandedOn] = field(default_factory=list)  # where laying passed on parts as they are
-    open_inputs: dict[PortRef, float] = field(default_factory=dict)  # what composites give to inputs left open
-    excused: set[PortRef] = field(
-        default_factory=set
-    )  # ports joined to what could not be read: not open, if unconnected
-
-    def add(self, path: str, values: Values, where: Location) -> None:
-        """Add a leaf. Raises TooManyParts."""
-        if self.crowded:
-            raise TooManyParts
-        self.instances[path] = Instance(path, values, where, variant_of(values))
-
-    @property
-    def crowded(self) -> bool:
-        """Whether the scene has as many parts as it may have."""
-        return self.scene.tally.full(len(self.instances))
-
-    def excuse(self, paths: Iterable[str]) -> None:
-        """Blame no port of these instances for being open: what is written about them could not be read."""
-        for path in paths:
-            if path in self.instances:
-                has = self.instances[path].type.declaration
-                self.excused.update(PortRef(path, name) for name in (*has.ports, *has.inputs))
-
-    def named(self, ref: PortRef) -> str:
-        """A port by the name that a netlist has for it: that of the outermost component that hands it out."""
-        names = [alias for alias, inner in self.aliases.items() if inner == ref]
-        return min((*names, str(ref)), key=lambda name: (name.count("."), name not in names))
-
-    def __str__(self) -> str:
-        joins = (f"{' -- '.join(map(str, join.ports))}    {join.where}" for join in self.joins)
-        effects = (
-            f"effects of {path}: {', '.join(f'{name} {word}' for name, word in switches.items())}"
-            for path, switches in self.effects.items()
-        )
-        return "\n".join([*map(str, self.instances.values()), *joins, *effects])
-
-
-def instantiate(netlist: Netlist, types: Mapping[str, type[Declared]]) -> Assembly:
-    """Build all instances. Raises ModelError with every mistake of the netlist."""
-    assembly, faults = survey(netlist, types)
-    if faults:
-        raise ModelError(faults)
-    return assembly
-
-
-def survey(
+def instantiate(
     netlist: Netlist, types: Mapping[str, type[Declared]], *, whole: bool = True
 ) -> tuple[Assembly, list[Fault]]:
     """What can be made of a netlist in spite of its mistakes, and the mistakes, for `check`.
@@ -263,7 +133,7 @@ def left_open(path: str, values: Values, aliases: Mapping[str, PortRef]) -> dict
 
 def _inner(assembly: Assembly, text: str) -> PortRef:
     owner, _, port = text.rpartition(".")
-    port = _as_today(assembly, owner, port)
+    port = as_today(assembly, owner, port)
     return assembly.aliases.get(f"{owner}.{port}") or PortRef(owner, port)
 
 
@@ -308,84 +178,6 @@ def _open_paths(assembly: Assembly) -> list[Fault]:
             what, way_out = f"{ports[0]} is connected to nothing.", "Join it with the path of a line or of a route."
             faults.append(Fault(line.where, what, way_out))
     return faults
-
-
-def resolve(assembly: Assembly, end: EndPoint) -> PortRef | str | Fault:
-    """The port an end point names; the component's path alone when it is a `path` port."""
-    owner, _, port = end.text.rpartition(".")
-    line = assembly.lines.get(owner)
-    declared = line.values.type.declaration.ports.get(port) if line is not None else None
-    port = _as_today(assembly, owner, port)
-    end = replace(end, text=f"{owner}.{port}") if owner else end
-    if declared is not None and declared.domain == PATH:
-        return owner
-    if end.text in assembly.aliases:
-        return assembly.aliases[end.text]
-    instance = assembly.instances.get(owner)
-    if instance is None:
-        return _no_such(assembly, end, owner, port)
-    has = instance.type.declaration
-    connectable = {**has.ports, **has.inputs, **has.outputs}
-    if port not in connectable:
-        what = f"{end.text}: {instance.type.__name__} has {_listing(connectable)}."
-        free = _only_free(assembly, owner, has.ports)
-        near = did_you_mean(port, connectable) or free
-        if port in ENDS and not any(f"mean {one}?" in near for one in has.ports):
-            near = free or near  # what joins bodies is meant, not a signal
-        return Fault(end.where, f"{what} {near.replace('mean ', f'mean {owner}.')}".rstrip())
-    return PortRef(owner, port)
-
-
-def _as_today(assembly: Assembly, owner: str, port: str) -> str:
-    """What a component calls an output that the netlist gives its old name; else the name as it is."""
-    if port not in OUTPUTS or f"{owner}.{port}" in assembly.aliases:
-        return port
-    has = assembly.instances[owner].type.declaration if owner in assembly.instances else Declaration()
-    known = {**has.ports, **has.inputs, **has.outputs}
-    outer = {today for today in OUTPUTS[port] if f"{owner}.{today}" in assembly.aliases}
-    return port if port in known else word_of_today(port, {*known, *outer}) or port
-
-
-def _only_free(assembly: Assembly, owner: str, ports: Iterable[str]) -> str:
-    """The sentence that offers the one port of a component that no connection names."""
-    used = {end.text for ends in assembly.netlist.connections for end in ends}
-    free = [port for port in ports if f"{owner}.{port}" not in used]
-    return f"Did you mean {free[0]}?" if len(free) == 1 else ""
-
-
-def _listing(connectable: Mapping[str, Any]) -> str:
-    kinds = {"ports": Port, "inputs": Input, "outputs": Output}
-    parts = []
-    for word, kind in kinds.items():
-        names = [n for n, d in connectable.items() if isinstance(d, kind)]
-        if names:
-            parts.append(f"{word} {listing(names)}")
-    return "; ".join(parts) or "no ports"
-
-
-def _no_such(assembly: Assembly, end: EndPoint, owner: str, port: str) -> Fault:
-    if not owner:
-        entry = assembly.netlist.components.get(end.text)
-        ports = [t.rpartition(".")[2] for t in assembly.aliases if t.startswith(end.text + ".")]
-        if end.text in assembly.instances:
-            ports = list(assembly.instances[end.text].type.declaration.ports)
-        if entry is not None:
-            return Fault(end.where, f"{end.text}: a port is missing; {entry.type} has {listing(ports)}.",
-                         f"Write {end.text}.{ports[0] if ports else 'port'}.")  # fmt: skip
-    outer = [name for name in assembly.aliases if name.rpartition(".")[0] == owner]
-    if owner in assembly.netlist.components:
-        kind = assembly.netlist.components[owner].type
-        known = [name.rpartition(".")[2] for name in outer]
-        known += list(assembly.lines[owner].values.type.declaration.ports) if owner in assembly.lines else []
-        known = list(dict.fromkeys(known))
-        near = did_you_mean(port, known).replace("mean ", f"mean {owner}.")
-        if owner in assembly.entries and port in assembly.entries[owner].type.declaration.outputs:
-            near = f"It has {port} with other values or effects only, see `fairlead describe {kind}`."
-        return Fault(end.where, f"{end.text}: {kind} has ports {listing(known)}. {near}".rstrip())
-    names = [*assembly.netlist.components, *assembly.instances]
-    near = did_you_mean(owner or end.text, names)
-    return Fault(end.where, f"{end.text}: there is no component {shown(owner or end.text)}. {near}".rstrip(),
-                 "" if near else f"There are {listing(assembly.netlist.components)}.")  # fmt: skip
 
 
 def _unknown_effects(assembly: Assembly, types: Mapping[str, type[Declared]]) -> list[Fault]:

@@ -89,4 +89,4 @@ def _of_one(name: str, declared: Any, value: Any, node: Value | None) -> Iterato
 
 
 def _is_steady(wave: Wave) -> bool:
-    return not wave.is_swinging and len(wave.polynomial.rows) == 1 and not wave.polynomial.rows[0, 4:].any()
+    return not wave.is_swinging and wave.polynomial.never_changes

@@ -47,7 +47,7 @@ from fairlead.component.values import Values
 from fairlead.component.waveforms import read_waveform, waveform_schema
 from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
-from fairlead.quantities import wanted, whole, written
+from fairlead.quantities import digits, wanted, whole, written
 
 NAME = re.compile(r"^[a-z][a-z0-9_]{0,59}$")
 STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
@@ -369,7 +369,8 @@ def _node(raw: Mapping[str, Value], path: str) -> Value | None:
     node: Value | None = None
     for step in path.replace("[", ".").replace("]", "").split("."):
         if node is not None and isinstance(node.content, list):
-            node = node.content[int(step)] if step.isdigit() and int(step) < len(node.content) else None
+            number = digits(step)
+            node = node.content[number] if number is not None and number < len(node.content) else None
         else:
             node = (raw if node is None else node.entries).get(step)
         if node is None:

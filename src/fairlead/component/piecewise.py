@@ -16,10 +16,16 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-STRIDE = 8
 DEGREE = 4
+LEFT, RIGHT, REFERENCE, TERMS = range(4)
+"""Positions in a row; TERMS is that of c0."""
+STRIDE = TERMS + DEGREE + 1
+"""Numbers in a row."""
 FAR = 1e300
+"""Stands for infinity at the ends, where a kernel may still multiply by zero."""
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -33,18 +39,43 @@ class Sine:
 
 @dataclass(frozen=True)
 class PiecewisePolynomial:
-    """Pieces (k, 8) in the layout above, ordered, without gaps.
+    """Pieces, as `rows` (k, STRIDE) in the layout above, ordered, without gaps.
 
     Pieces may overlap: each is then left at its own ends only, as with hysteresis. A run begins in piece `begin` and
     finds the right one from there.
     """
 
-    rows: np.ndarray
+    rows: Floats
     begin: int = 0
+
+    @property
+    def left(self) -> Floats:
+        """Where each piece begins (k,)."""
+        return self.rows[:, LEFT]
+
+    @property
+    def right(self) -> Floats:
+        """Where each piece ends (k,)."""
+        return self.rows[:, RIGHT]
+
+    @property
+    def terms(self) -> Floats:
+        """The coefficients of each piece (k, DEGREE + 1), the constant first."""
+        return self.rows[:, TERMS:]
+
+    @property
+    def borders(self) -> list[float]:
+        """Where one piece follows another (k - 1)."""
+        return [float(x) for x in self.left[1:]]
+
+    @property
+    def never_changes(self) -> bool:
+        """True for a constant."""
+        return len(self.rows) == 1 and not self.terms[0, 1:].any()
 
     def piece_at(self, x: float) -> int:
         """The piece that holds x; at a border the right one."""
-        return int(np.clip(np.searchsorted(self.rows[:, 0], x, side="right") - 1, 0, len(self.rows) - 1))
+        return int(np.clip(np.searchsorted(self.left, x, side="right") - 1, 0, len(self.rows) - 1))
 
     def __call__(self, x: float) -> float:
         """Value at x."""
@@ -53,45 +84,49 @@ class PiecewisePolynomial:
     @cached_property
     def is_continuous(self) -> bool:
         """True if the pieces meet, each at the end of the one before, with the same value."""
-        size = np.abs(self.rows[:, 3]).max(initial=1e-300)
-        left, right = self.rows[:-1], self.rows[1:]
-        jumps = np.abs(_values(left, right[:, 0]) - _values(right, right[:, 0]))
-        return bool((left[:, 1] == right[:, 0]).all() and (jumps <= 1e-9 * size).all())
+        size, at = np.abs(self.terms[:, 0]).max(initial=1e-300), self.left[1:]
+        jumps = np.abs(_values(self.rows[:-1], at) - _values(self.rows[1:], at))
+        return bool((self.right[:-1] == at).all() and (jumps <= 1e-9 * size).all())
+
+    def jump_at(self, x: float) -> float:
+        """How far the value rises at once at x; zero where no piece begins."""
+        k = int(np.searchsorted(self.left, x))
+        begins = 0 < k < len(self.rows) and self.left[k] == x
+        return _value(self.rows[k], x) - _value(self.rows[k - 1], x) if begins else 0.0
 
     def integral(self, start: float) -> PiecewisePolynomial:
-        """Antiderivative that is zero at `start`; pieces of degree at most three."""
-        if np.any(self.rows[:, 3 + DEGREE] != 0):
+        """Antiderivative that is zero at `start`; raises ValueError for pieces of a degree above three."""
+        if np.any(self.terms[:, DEGREE] != 0):
             raise ValueError("a piece of degree four cannot be integrated in this layout")
-        rows = self.rows.copy()
-        rows[:, 4:] = self.rows[:, 3:7] / np.arange(1, DEGREE + 1)
-        rows[:, 3] = 0.0
-        for before, row in itertools.pairwise(rows):  # continuous at every border
-            row[3] += _value(before, row[0]) - _value(row, row[0])
-        whole = PiecewisePolynomial(rows)
-        rows[:, 3] -= whole(start)
+        whole = PiecewisePolynomial(self.rows.copy())
+        whole.terms[:, 1:] = self.terms[:, :-1] / np.arange(1, DEGREE + 1)
+        whole.terms[:, 0] = 0.0
+        for before, row in itertools.pairwise(whole.rows):  # continuous at every border
+            row[TERMS] += _value(before, row[LEFT]) - _value(row, row[LEFT])
+        whole.terms[:, 0] -= whole(start)
         return whole
 
     def derivative(self) -> PiecewisePolynomial:
         """Slope, piece by piece."""
-        rows = self.rows.copy()
-        rows[:, 3:7] = self.rows[:, 4:] * np.arange(1, DEGREE + 1)
-        rows[:, 7] = 0.0
-        return PiecewisePolynomial(rows)
+        slope = PiecewisePolynomial(self.rows.copy())
+        slope.terms[:, :-1] = self.terms[:, 1:] * np.arange(1, DEGREE + 1)
+        slope.terms[:, -1] = 0.0
+        return slope
 
 
-def _values(rows: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """The value of each piece at a place of its own."""
+def _values(rows: Floats, x: Floats) -> Floats:
+    """The value (k,) of each piece at a place of its own."""
     found = np.zeros(len(rows))
     for power in range(DEGREE, -1, -1):
-        found = found * (x - rows[:, 2]) + rows[:, 3 + power]
+        found = found * (x - rows[:, REFERENCE]) + rows[:, TERMS + power]
     return found
 
 
-def _value(row: np.ndarray, x: float) -> float:
-    return float(horner(row[3:], x - row[2]))
+def _value(row: Floats, x: float) -> float:
+    return float(horner(row[TERMS:], x - row[REFERENCE]))
 
 
-def horner(coefficients: np.ndarray, s: Any) -> Any:
+def horner(coefficients: Floats, s: Any) -> Any:
     """c0 + c1 s + c2 s^2 + ...; numpy's own takes longer to read in than a table to evaluate a thousand times."""
     return functools.reduce(lambda value, coefficient: coefficient + value * s, coefficients[::-1])
 
@@ -102,8 +137,8 @@ def pieces(borders: Sequence[float], coefficients: Sequence[Sequence[float]]) ->
     rows = np.zeros((len(coefficients), STRIDE))
     for row, left, right, terms in zip(rows, edges[:-1], edges[1:], coefficients, strict=True):
         reference = left if left > -FAR else (right if right < FAR else 0.0)
-        row[:3] = left, right, reference
-        row[3 : 3 + len(terms)] = terms
+        row[:TERMS] = left, right, reference
+        row[TERMS : TERMS + len(terms)] = terms
     return PiecewisePolynomial(rows)
 
 

@@ -13,14 +13,14 @@ exactly:
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.piecewise import DEGREE, FAR, PiecewisePolynomial, Sine, constant, pieces
+from fairlead.component.piecewise import DEGREE, FAR, REFERENCE, PiecewisePolynomial, Sine, constant, pieces
 
 SWING = "swing_"
 """What the swings of a wave are called in paths: `velocity.swing_0`."""
@@ -39,7 +39,7 @@ class Swing:
     @property
     def sine(self) -> Sine:
         """What a kernel multiplies the pieces with."""
-        return Sine(1.0 if self.polynomial.rows[:, 3:].any() else 0.0, self.omega, self.phase)
+        return Sine(1.0 if self.polynomial.terms.any() else 0.0, self.omega, self.phase)
 
     def __call__(self, t: float) -> float:
         """Value at time t."""
@@ -75,7 +75,7 @@ class Wave:
     def borders(self) -> tuple[float, ...]:
         """Instants at which a piece ends, in order."""
         tables = (self.polynomial, *(swing.polynomial for swing in self.swings))
-        return tuple(sorted({float(x) for table in tables for x in table.rows[1:, 0]}))
+        return tuple(sorted({x for table in tables for x in table.borders}))
 
     @property
     def parts(self) -> tuple[Swing, ...]:
@@ -87,8 +87,8 @@ class Wave:
     def jumps(self) -> Iterator[tuple[float, float]]:
         """(place, height) of every border, with how far the value jumps there."""
         for x in self.borders:
-            height = _jump(self.polynomial, x)
-            height += sum(_jump(s.polynomial, x) * math.sin(s.omega * x + s.phase) for s in self.swings)
+            height = self.polynomial.jump_at(x)
+            height += sum(s.polynomial.jump_at(x) * math.sin(s.omega * x + s.phase) for s in self.swings)
             yield x, height
 
     def scaled(self, factor: float, offset: float = 0.0) -> Wave:
@@ -136,8 +136,8 @@ def wave(path: PiecewisePolynomial, parts: list[Swing]) -> Wave:
     for k, part in enumerate(parts):
         if part.omega == 0:
             path = added(path, _scaled(part.polynomial, math.sin(part.phase)))
-        elif sine.amplitude == 0 and _never_changes(part.polynomial):
-            sine = Sine(float(part.polynomial.rows[0, 3]), part.omega, part.phase)
+        elif sine.amplitude == 0 and part.polynomial.never_changes:
+            sine = Sine(float(part.polynomial.terms[0, 0]), part.omega, part.phase)
             parts[k] = Swing(constant(0.0), part.omega, part.phase)
     return Wave(path, sine, tuple(p for p in parts if p.omega != 0 and p.sine.amplitude))
 
@@ -162,7 +162,7 @@ def times(a: Wave, b: Wave) -> Wave:
 
 def added(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolynomial:
     """Piece by piece over the borders of both."""
-    if len(a.rows) == 1 and not a.rows[0, 3:].any():
+    if len(a.rows) == 1 and not a.terms.any():
         return b
     borders, at, about = _common(a, b)
     return pieces(borders, (_about(a, at, about) + _about(b, at, about)).tolist())
@@ -180,7 +180,7 @@ def multiplied(a: PiecewisePolynomial, b: PiecewisePolynomial) -> PiecewisePolyn
 
 def _common(a: PiecewisePolynomial, b: PiecewisePolynomial) -> tuple[list[float], Floats, Floats]:
     """The borders of both; of every piece between them a place inside, and the reference its terms are about."""
-    borders = sorted({x for p in (a, b) for x in p.rows[1:, 0]})
+    borders = sorted({x for p in (a, b) for x in p.borders})
     starts = [-FAR, *borders]
     references = [x if x > -FAR else (borders[0] if borders else 0.0) for x in starts]
     inside = [(x + y) / 2 if x > -FAR and y < FAR else (y - 1 if x <= -FAR and y < FAR else x + 1 if x > -FAR else 0.0)
@@ -190,25 +190,20 @@ def _common(a: PiecewisePolynomial, b: PiecewisePolynomial) -> tuple[list[float]
 
 def _about(p: PiecewisePolynomial, at: Floats, references: Floats) -> Floats:
     """Coefficients (n, DEGREE + 1), about each reference, of the pieces that hold the places `at` (n,)."""
-    number = np.clip(np.searchsorted(p.rows[:, 0], at, side="right") - 1, 0, len(p.rows) - 1)
-    given = p.rows[number]
-    shift = (references - given[:, 2])[:, None]
+    number = np.clip(np.searchsorted(p.left, at, side="right") - 1, 0, len(p.rows) - 1)
+    shift, terms = (references - p.rows[number, REFERENCE])[:, None], p.terms[number]
     made = np.zeros((len(at), DEGREE + 1))
     for power in range(DEGREE, -1, -1):  # Horner's scheme in y = x + shift
         made[:, 1:] = made[:, 1:] * shift + made[:, :-1]
-        made[:, :1] = made[:, :1] * shift + given[:, 3 + power : 4 + power]
+        made[:, :1] = made[:, :1] * shift + terms[:, power : power + 1]
     return made
 
 
 def _scaled(p: PiecewisePolynomial, factor: float, offset: float = 0.0) -> PiecewisePolynomial:
-    rows = p.rows.copy()
-    rows[:, 3:] *= factor
-    rows[:, 3] += offset
-    return PiecewisePolynomial(rows)
-
-
-def _never_changes(p: PiecewisePolynomial) -> bool:
-    return len(p.rows) == 1 and not p.rows[0, 4:].any()
+    made = PiecewisePolynomial(p.rows.copy())
+    made.terms[:] *= factor
+    made.terms[:, 0] += offset
+    return made
 
 
 def _gathered(parts: list[Swing]) -> tuple[Swing, ...]:
@@ -225,7 +220,7 @@ def _gathered(parts: list[Swing]) -> tuple[Swing, ...]:
                 break
         more = _scaled(part.polynomial, sign)
         found[omega, phase] = added(found[omega, phase], more) if (omega, phase) in found else more
-    return tuple(Swing(p, omega, phase) for (omega, phase), p in found.items() if p.rows[:, 3:].any())
+    return tuple(Swing(p, omega, phase) for (omega, phase), p in found.items() if p.terms.any())
 
 
 def _integrated(swing: Swing) -> Iterator[Swing]:
@@ -237,9 +232,9 @@ def _integrated(swing: Swing) -> Iterator[Swing]:
     cosine = [_scaled(rates[0], -1 / w), _scaled(rates[2], w**-3), _scaled(rates[4], -(w**-5))]
     sine = [_scaled(rates[1], w**-2), _scaled(rates[3], -(w**-4))]
     for terms, phase in ((cosine, swing.phase + QUARTER), (sine, swing.phase)):
-        rows = terms[0].rows.copy()
-        rows[:, 3:] = sum(term.rows[:, 3:] for term in terms)
-        yield Swing(PiecewisePolynomial(rows), w, phase)
+        whole = PiecewisePolynomial(terms[0].rows.copy())
+        whole.terms[:] = sum(term.terms for term in terms)
+        yield Swing(whole, w, phase)
 
 
 def _continuous(path: PiecewisePolynomial, swings: tuple[Swing, ...]) -> PiecewisePolynomial:
@@ -247,17 +242,8 @@ def _continuous(path: PiecewisePolynomial, swings: tuple[Swing, ...]) -> Piecewi
     if not swings:
         return path
     levels = [0.0]
-    borders = sorted({float(x) for s in swings for x in s.polynomial.rows[1:, 0]})
+    borders = sorted({x for s in swings for x in s.polynomial.borders})
     for x in borders:
-        jump = sum(_jump(s.polynomial, x) * math.sin(s.omega * x + s.phase) for s in swings)
+        jump = sum(s.polynomial.jump_at(x) * math.sin(s.omega * x + s.phase) for s in swings)
         levels.append(levels[-1] - jump)
     return added(path, pieces(borders, [[level] for level in levels]))
-
-
-def _jump(p: PiecewisePolynomial, x: float) -> float:
-    """How far the value rises at once at x; zero where no piece ends."""
-    k = int(np.searchsorted(p.rows[:, 0], x))
-    if not 0 < k < len(p.rows) or p.rows[k, 0] != x:
-        return 0.0
-    value: Callable[[Floats], float] = lambda row: float(np.polynomial.polynomial.polyval(x - row[2], row[3:]))  # noqa: E731
-    return value(p.rows[k]) - value(p.rows[k - 1])

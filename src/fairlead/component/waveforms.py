@@ -196,7 +196,7 @@ def _times(a: Wave, b: Wave) -> Wave:
         made = times(a, b)
     except OverflowError:
         made = None
-    if made is None or made.polynomial.rows[:, 4 + HIGHEST :].any():
+    if made is None or made.polynomial.terms[:, HIGHEST + 1 :].any():
         what = f"the product has pieces of a degree above {HIGHEST}"
         raise TableError(what, "Multiply straight lines and levels, such as ramps and steps.")
     return _bearable(made)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from fairlead.brief import in_a_line
+from fairlead.component.assembly import Assembly, Instance, PortRef
 from fairlead.component.declare import Domain
-from fairlead.component.instantiate import Assembly, Instance, PortRef
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import re
 
+from fairlead.component.assembly import Assembly, Instance, PortRef
 from fairlead.component.base import Family
 from fairlead.component.friction_block import unheard
-from fairlead.component.instantiate import Assembly, Instance, PortRef
 from fairlead.component.values import input_given
 from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later

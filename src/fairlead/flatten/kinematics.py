@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from fairlead.component.assembly import Assembly, Instance, PortRef
 from fairlead.component.declare import TRANSLATIONAL
-from fairlead.component.instantiate import Assembly, Instance, PortRef
 from fairlead.component.replies import AnswerError
 from fairlead.errors import Fault, listing
 from fairlead.flatten.flat_model import Group, Node, Prescribed

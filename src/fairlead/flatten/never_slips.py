@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.declaration import Declaration
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import key
 from fairlead.component.values import parameter
 from fairlead.flatten.flat_model import FlatModel, Group

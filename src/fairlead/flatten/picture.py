@@ -10,8 +10,8 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.base import Declared
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.scene import is_head
 from fairlead.flatten.flat_model import FlatModel
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fairlead.component.along import OfLine, OfRoute
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.component.scene import TooManyParts
 from fairlead.errors import Fault
 

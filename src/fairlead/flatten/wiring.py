@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+from fairlead.component.assembly import Assembly, Join, PortRef
 from fairlead.component.declare import PATH, Domain, Input, Output, Port
-from fairlead.component.instantiate import Assembly, Join, PortRef
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import Node
 from fairlead.flatten.graph import connected_parts

@@ -117,7 +117,7 @@ def _alike(model: Model, value: Mapping[str, float]) -> Model:
     if other.rebuilt:
         raise Another(f"the structure depends on it ({other.rebuilt.partition(': ')[2].removesuffix('.')})")
     systems = (model.system, other.system)
-    times = [[table.polynomial.rows[:, 0].tolist() for table in one.timed_tables] for one in systems]
+    times = [[table.polynomial.left.tolist() for table in one.timed_tables] for one in systems]
     periods = [one.memory["sample_period"].tolist() for one in systems]
     if times[0] != times[1] or periods[0] != periods[1]:
         raise Another("it says at which times something happens")

@@ -12,7 +12,7 @@ constant, or that is multiplied by a piece that is zero, does not depend on wher
     pieces      "0" zero     "1" one     "c" any other constant     "v" anything else
 
 Whatever cannot be shown to cancel counts as a dependence. What varies by itself (time, discrete variables) is not told
-here: see `answers.py`. Imported where a class is traced; SymPy is there already.
+here: see `system/active/dependences.py`. Imported where a class is traced; SymPy is there already.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ from fairlead.netlist.netlist import Value
 from fairlead.netlist.parameters import work_out
 from fairlead.netlist.settings import RecordSettings, RunSettings
 from fairlead.netlist.yaml12 import resolve
-from fairlead.quantities import QuantityError, quantity, unit_text
+from fairlead.quantities import QuantityError, digits, quantity, unit_text
 
 BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
 KEYS = {"run": RunSettings.model_fields, "record": RecordSettings.model_fields}
@@ -150,8 +150,9 @@ def _text(item: Value, key: str) -> str | None:
 
 
 def _index(items: list[Value], word: str) -> int | None:
-    if word.isascii() and word.isdigit() and len(word) < 10:
-        return int(word) if int(word) < len(items) else None
+    number = digits(word)
+    if number is not None:
+        return number if number < len(items) else None
     names = _names(items)
     return names.index(word) if word in names else None
 

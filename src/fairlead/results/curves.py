@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from fairlead.distinct import distinct
 
-INSIDE = 2
+BEFORE, ORDINARY, AFTER, INSIDE = -1, 0, 1, 2
+"""What a row of a file is: just before an event or just after it, neither, or inside a step (`Result.side`)."""
 SMOOTH = 0.5
 """Largest third difference of rows that are on a smooth curve, in their second ones; or fourth, in their third."""
 EVEN = 1e-6
@@ -99,7 +100,7 @@ class Curves:
         h0, h1, h2 = (np.where(gap > 0.0, gap, 1.0) for gap in gaps)
         here, bent_before = (other - one) / h1, (other - one) / h1 - (one - before) / h0
         bent_after = (after - other) / h2 - here
-        opens, closes = self.side[left] == 1, self.side[np.clip(left + 1, 0, last)] == -1
+        opens, closes = self.side[left] == AFTER, self.side[np.clip(left + 1, 0, last)] == BEFORE
         return (np.where(opens, here - bent_after * h1 / (h1 + h2), one - before),
                 np.where(closes, here + bent_before * h1 / (h0 + h1), after - other))  # fmt: skip
 
@@ -150,9 +151,9 @@ class Curves:
         if self.switches is None or not inside.any():
             return np.zeros(len(first), dtype=bool)
         rows = np.where(inside, first, 0)[:, None] + np.arange(4)
-        event, sign = (0, 1) if opening else (3, -1)
+        event, side = (0, AFTER) if opening else (3, BEFORE)
         on_grid = [k for k in range(4) if k != event]
-        fits = inside & (self.side[rows[:, event]] == sign) & (self.side[rows[:, on_grid]] == 0).all(axis=1)
+        fits = inside & (self.side[rows[:, event]] == side) & (self.side[rows[:, on_grid]] == ORDINARY).all(axis=1)
         gaps = np.diff(self.t[rows], axis=1)
         short, even, h = gaps[:, 0 if opening else 2], gaps[:, 2 if opening else 0], gaps[:, 1]
         fits &= (h > 0.0) & (np.abs(even - h) <= EVEN * h) & (short > 0.0) & (short <= (1.0 + EVEN) * h)
@@ -174,4 +175,4 @@ class Curves:
         even = (np.abs(gaps - gaps[:, 1:2]) <= EVEN * gaps[:, 1:2]).all(axis=1) & (gaps[:, 1] > 0.0)
         begin = np.searchsorted(self.switches, self.t[rows[:, 0]], "right")
         end = np.searchsorted(self.switches, self.t[rows[:, -1]], "left")
-        return np.asarray(even & (begin == end) & (self.side[rows] == 0).all(axis=1))
+        return np.asarray(even & (begin == end) & (self.side[rows] == ORDINARY).all(axis=1))

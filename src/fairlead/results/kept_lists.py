@@ -14,7 +14,23 @@ if TYPE_CHECKING:
     from fairlead.results.table import Table
 
 
-class Events(list[Event]):
+class _AsTable:
+    """Shows itself as its table."""
+
+    __slots__ = ()
+
+    def table(self) -> Table:
+        """The same as a table."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return repr(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()
+
+
+class Events(_AsTable, list[Event]):
     """Zone changes in order, each (t, component, zone_from, zone_to, guard); a text gives a column, as of a table."""
 
     @overload
@@ -40,14 +56,8 @@ class Events(list[Event]):
         """The same with columns t, component, zone_from, zone_to, guard."""
         return self.table().to_pandas()
 
-    def __repr__(self) -> str:
-        return repr(self.table())
 
-    def _repr_html_(self) -> str:
-        return self.table()._repr_html_()
-
-
-class Signals(tuple[Signal, ...]):
+class Signals(_AsTable, tuple[Signal, ...]):
     """Recorded signals, in the order of recording."""
 
     __slots__ = ()
@@ -61,26 +71,14 @@ class Signals(tuple[Signal, ...]):
         """The same with columns signal, unit, description."""
         return self.table().to_pandas()
 
-    def __repr__(self) -> str:
-        return repr(self.table())
 
-    def _repr_html_(self) -> str:
-        return self.table()._repr_html_()
-
-
-class RunRecord(dict[str, Any]):
+class RunRecord(_AsTable, dict[str, Any]):
     """The contents of run.json."""
 
     def table(self) -> Table:
         """Its entries, long ones by kind and size."""
         rows = tuple((name, brief(value)) for name, value in self.items())
         return _table("run.json", ("entry", "value"), ("", ""), rows)
-
-    def __repr__(self) -> str:
-        return repr(self.table())
-
-    def _repr_html_(self) -> str:
-        return self.table()._repr_html_()
 
 
 def _table(*given: Any) -> Table:

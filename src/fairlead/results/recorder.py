@@ -39,6 +39,7 @@ FLUSH_PERIOD = 0.5
 LARGEST_SHARE_OF_FLUSHING = 0.05
 MOST_BYTES_IN_MEMORY = 2**24
 
+
 class RunDirectory(Sink):
     """Takes the signals and events of one run and writes them; `create` it, `finish` it."""
 

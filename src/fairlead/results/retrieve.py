@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import fairlead.results.layout as layout
-from fairlead.results.curves import INSIDE
+from fairlead.results.curves import BEFORE, INSIDE
 from fairlead.results.damage import DamagedResultsError, reading
 from fairlead.results.layout import MATRIX, SIDE, TIME, open_file
 from fairlead.results.signal import Signal
@@ -59,7 +59,7 @@ class SeriesReader:
         """Return -1 left of an event, +1 right of it, 2 inside a step, 0 elsewhere (n,)."""
         with reading(self.path), open_file(self.path, "r") as file:
             sides: NDArray[np.int8] = file[SIDE][: self.rows]
-        self._require_all(sides, (sides >= -1) & (sides <= INSIDE), "the side")
+        self._require_all(sides, (sides >= BEFORE) & (sides <= INSIDE), "the side")
         return sides
 
     def values(self, names: list[str]) -> NDArray[np.float64]:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from fairlead.component.assembly import PortRef
 from fairlead.component.effects import switch
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import rate_of
 from fairlead.component.values import Variant
 from fairlead.errors import Fault, ModelError

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.component.keys import INPUT, key
 from fairlead.component.values import number_given, polynomial
 from fairlead.errors import ModelError
@@ -34,7 +34,7 @@ from fairlead.system.arrays.blocks import (
     parameter_of,
     place_of_input,
 )
-from fairlead.system.arrays.shares import rows, shares
+from fairlead.system.arrays.portions import portions, rows
 from fairlead.system.arrays.switching import kinks, machine_owners, machine_zones
 from fairlead.system.arrays.timing import first_pieces, samplers, time_places
 from fairlead.system.arrays.working import set_apart
@@ -95,22 +95,27 @@ def _with_numbers(
     memory["sample_period"] = samplers(blocks)["sample_period"]
     if tables is not old.tables:
         memory |= {"tables": tables.vector(), "time_place": time_places(blocks)}
+        other = {"kink_guard": kinks(blocks), "machine_zones": machine_zones(blocks, len(old.zones))}
+    if tables is not old.tables or any(_begin_by_values(was, now) for was, now in zip(old.blocks, blocks, strict=True)):
         memory["zones"] = np.zeros(len(old.zones), dtype=np.int64)
-        other = {
-            "timed_tables": first_pieces(blocks, memory["zones"], numbering.open_first), "zones": memory["zones"],
-            "kink_guard": kinks(blocks), "machine_zones": machine_zones(blocks, len(old.zones)),
-        }  # fmt: skip
-    shared, end = shares(blocks)
-    memory["blocks"] = rows(blocks, shared, end)["blocks"]
+        timed = first_pieces(blocks, memory["zones"], numbering.open_first)
+        other |= {"timed_tables": timed, "zones": memory["zones"]}
+    laid, end = portions(blocks)
+    memory["blocks"] = rows(blocks, laid, end)["blocks"]
     memory["context"] = _addressed(memory)
     assert old.scales is not None, "a part has the numbers of the whole"
     run = flat.assembly.netlist.run
     return replace(
         old, flat=flat, numbering=numbering, blocks=blocks, tables=tables, initial=begin, accuracy=run.accuracy,
         start=run.start, scales=scales(flat, numbering, old.scales.rounding),
-        machine_guards=machine_owners(blocks, len(old.zones)), memory=memory,
+        machine_owners=machine_owners(blocks, len(old.zones)), memory=memory,
         working=set_apart(memory, blocks, samples=True), **other,
     )  # fmt: skip
+
+
+def _begin_by_values(was: Block, now: Block) -> bool:
+    """True if some of a block have other values, and these may say in which zone they begin."""
+    return now is not was and now.instances[0].type.answers.begins_in is not None
 
 
 def _addressed(memory: Memory) -> Integers:

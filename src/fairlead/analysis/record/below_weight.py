@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.results.signal import family
+from fairlead.system.arrays.portions import portions
 from fairlead.system.arrays.recording import OutputSignal
-from fairlead.system.arrays.shares import shares
 from fairlead.system.compiled.system import System
 
 AT_REST = 1e-6  # of the weight; what is smaller is taken for rounding
@@ -154,7 +154,7 @@ def _sums_of(system: System) -> Iterator[_Sums]:
     creeping[[x for x, v in system.numbering.pairs if creeping[v]]] = True
     units = np.array([unknown.unit for unknown in system.numbering.unknowns])
     position = np.array([unknown.kind == "position" for unknown in system.numbering.unknowns])
-    for block, share in zip(system.blocks, shares(system.blocks)[0], strict=True):
+    for block, portion in zip(system.blocks, portions(system.blocks)[0], strict=True):
         s, declared = block.kernel.structure, block.kernel.variant.type.declaration.outputs
         fixed = set(s.fixed_signals)
         for k, name in enumerate(s.outputs):
@@ -168,5 +168,5 @@ def _sums_of(system: System) -> Iterator[_Sums]:
             other = creeping[at] | np.not_equal(units[at], declared[name].unit)
             judged = np.flatnonzero(counts.any(axis=1) & ~(counts & other).any(axis=1))
             moves = np.all(position[at] | ~counts, axis=1)
-            places = share.outputs + k + judged * len(s.all_outputs)
+            places = portion.outputs + k + judged * len(s.all_outputs)
             yield _Sums(places.tolist(), np.where(counts, ratio, 0.0)[judged], at[judged], moves[judged])

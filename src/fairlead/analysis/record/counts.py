@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.netlist.netlist import Netlist

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.system.arrays.recording import OutputSignal
 from fairlead.system.numbering.unknowns import LEDGER
 

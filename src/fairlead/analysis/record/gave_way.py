@@ -97,7 +97,7 @@ class GaveWay:
     @functools.cached_property
     def _corners(self) -> NDArray[np.float64]:
         """Instants at which a piece of what is given in time, with jumps, begins."""
-        found = [table.polynomial.rows[:, 0] for table in tables(self.system.blocks)
+        found = [table.polynomial.left for table in tables(self.system.blocks)
                  if table.timed and not table.polynomial.is_continuous]  # fmt: skip
         return np.unique(np.concatenate([*found, np.zeros(0)]))
 

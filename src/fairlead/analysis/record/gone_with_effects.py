@@ -13,7 +13,8 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 
 from fairlead.analysis.record.declared_signals import signals_of
-from fairlead.component.instantiate import Assembly, survey
+from fairlead.component.assembly import Assembly
+from fairlead.component.instantiate import instantiate
 from fairlead.flatten.flatten import survey as flatten
 from fairlead.netlist.netlist import Netlist, Value
 from fairlead.patterns import picked
@@ -27,7 +28,7 @@ def gone(assembly: Assembly, patterns: Iterable[str]) -> list[str]:
     without = set(unvalued(assembly, unknown))
     if not switched(assembly.netlist) or len(without) == len(unknown):
         return [one for one in unknown if one in without]
-    whole, _ = survey(as_declared(assembly.netlist), assembly.types)
+    whole, _ = instantiate(as_declared(assembly.netlist), assembly.types)
     flatten(whole)  # lays lines on their routes, which makes the contacts with devices
     still = set(_unfit(whole, unknown))
     return [one for one in unknown if one not in still or one in without]

@@ -10,7 +10,7 @@ from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.analysis.record.gone_with_effects import gone
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.suggestion import inside, suggest
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.errors import Fault, ModelError
 from fairlead.netlist.limits import MOST_FAULTS
 from fairlead.netlist.netlist import Value

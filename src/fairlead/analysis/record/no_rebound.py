@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from fairlead.analysis.record.chattering import MOST_NAMED
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.tolerances import Floats
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.system.arrays.recording import OutputSignal
 from fairlead.system.compiled.system import System
 

@@ -2,7 +2,7 @@
 
     start   inside   inside   inside   end          the end is the start of the next step
 
-The dense output of a step goes through its rows inside, evenly spaced (integrate/record.py): one of a parabola,
+The dense output of a step goes through its rows inside, evenly spaced (integrate/record/rows.py): one of a parabola,
 three of a curve of degree four.
 """
 

@@ -10,7 +10,7 @@ from fairlead.component.bundled import PACKAGE
 from fairlead.errors import did_you_mean, listing
 
 if TYPE_CHECKING:
-    from fairlead.component.instantiate import Assembly
+    from fairlead.component.assembly import Assembly
 
 
 def inside(assembly: Assembly, pattern: str) -> str:

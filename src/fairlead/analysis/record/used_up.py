@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.treatments.stepping_table import few
+from fairlead.component.assembly import PortRef
 from fairlead.component.declare import USED_UP
-from fairlead.component.instantiate import PortRef
 from fairlead.system.arrays.recording import OutputSignal
 from fairlead.system.compiled.system import System
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault
 from fairlead.system.compiled.system import System
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from fairlead.analysis.record.declared_signals import signals_of
 from fairlead.analysis.record.names import recorded_names
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.errors import Fault, Location
 from fairlead.patterns import as_today
 from fairlead.renamed import of_today

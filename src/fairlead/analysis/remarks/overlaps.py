@@ -8,6 +8,7 @@ from typing import Any
 from fairlead.errors import Fault
 from fairlead.kernels.structure import Structure
 from fairlead.system.compiled.asking import guards_at
+from fairlead.system.compiled.named_parts import rigid_stops
 from fairlead.system.compiled.system import System
 
 DEEP = 1e-6
@@ -17,7 +18,7 @@ PLACES = ("m", "rad")
 
 def overlaps(system: System) -> Iterator[Fault]:
     """One remark for each stop that begins passed."""
-    stops = set(system.rigid_stops)
+    stops = set(rigid_stops(system))
     if not stops:
         return
     here = system.instance()
@@ -26,7 +27,7 @@ def overlaps(system: System) -> Iterator[Fault]:
         name = system.machine_names[machine]
         if name not in stops or not depth[guard] > DEEP:
             continue
-        block, _ = system.machine_guards[machine]
+        block, _ = system.machine_owners[machine]
         s = block.kernel.structure
         known = s.guards[s.zones[int(here.zones[machine])]]
         slot = int(system.memory["guard_place"][guard, 3])

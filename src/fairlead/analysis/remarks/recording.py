@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fairlead.analysis.record.gone_with_effects import gone, switched
 from fairlead.analysis.record.names import recorded_names
-from fairlead.component.instantiate import Assembly
+from fairlead.component.assembly import Assembly
 from fairlead.errors import Fault, listing
 from fairlead.netlist.netlist import Netlist
 

@@ -11,7 +11,7 @@ from fairlead.analysis.statics.machines import bodies
 from fairlead.analysis.statics.schedule import LOOKS
 from fairlead.analysis.statics.solution import Statics
 from fairlead.analysis.statics.tracing import Traced, trace
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.values import Wave
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel

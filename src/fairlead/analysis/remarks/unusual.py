@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from fairlead.component.assembly import Assembly
 from fairlead.component.given import Parameter, Part, Stations, Waveform
-from fairlead.component.instantiate import Assembly
 from fairlead.component.parameters import said_of
 from fairlead.component.values import Values, Wave
 from fairlead.errors import Fault, Location, shown

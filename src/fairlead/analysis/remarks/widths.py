@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.component.values import Values, Wave, polynomial
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel

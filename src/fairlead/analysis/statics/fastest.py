@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.declare import HYDRAULIC
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
 
 

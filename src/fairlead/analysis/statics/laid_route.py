@@ -16,9 +16,9 @@ from fairlead.analysis.statics.schedule import Schedule
 from fairlead.analysis.statics.tracing import trace
 from fairlead.brief import in_a_line
 from fairlead.component.along import OfLine, OfRoute
+from fairlead.component.assembly import Line, PortRef
 from fairlead.component.declare import ROTATIONAL
 from fairlead.component.effects import switch
-from fairlead.component.instantiate import Line, PortRef
 from fairlead.component.piecewise import PiecewisePolynomial
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel

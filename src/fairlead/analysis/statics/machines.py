@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.analysis.statics.tracing import Traced, answer, trace
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.values import Wave, steady
 from fairlead.flatten.flat_model import FlatModel
 

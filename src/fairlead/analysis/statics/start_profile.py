@@ -15,7 +15,7 @@ from fairlead.analysis.statics.laid_route import LaidRoute, laid_routes
 from fairlead.analysis.statics.schedule import LOOKS, STILL
 from fairlead.analysis.statics.solution import state
 from fairlead.analysis.statics.states import State
-from fairlead.component.instantiate import Instance, with_other
+from fairlead.component.assembly import Instance, with_other
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 

@@ -21,9 +21,9 @@ from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 from fairlead.analysis.statics.schedule import followed
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.class_checks import DeclarationError
 from fairlead.component.given import Waveform
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.terms import terms_of
 from fairlead.component.values import Wave, input_given, steady
 from fairlead.flatten.flat_model import FlatModel

@@ -3,7 +3,7 @@
 A class is found by facts of the compiled system: what laws declare, and what was traced of them. No name decides.
 
     INSIDE     switches happen inside steps: the cost does not depend on how many contacts switch in one
-    LANDED     every step ends at the first switch in it, as those of `rodas` do (integrate/located_step.py)
+    LANDED     every step ends at the first switch in it, as those of `rodas` do (integrate/stepping/located_step.py)
     REFUSED    the run does not begin, and names the part and the engine to take
 
 Up to `Run.most_located` machines (contacts, stops, tables: all that has zones) every scene is LANDED, since few
@@ -22,6 +22,12 @@ from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
 from fairlead.system.active.timed_limits import switched_limits, timed_limits
+from fairlead.system.compiled.named_parts import (
+    at_nodes_without_inertia,
+    between_mass_and_none,
+    kept_positions,
+    rigid_stops,
+)
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.contact_cycles import moved_apart
 
@@ -105,20 +111,20 @@ def _any(system: System, settings: RunSettings) -> Iterable[str]:
 TABLE: tuple[Class, ...] = (
     Class("contacts and gears that hold nodes without inertia, whose forces do not tell their speed", REFUSED,
           "stepping does not take what holds nodes without inertia between springs or at gears ({}): it knows the mean "
-          "over a step of their speeds, and no jumps", lambda system, _: system.without_inertia,
+          "over a step of their speeds, and no jumps", lambda system, _: at_nodes_without_inertia(system),
           "Give the node an inertia, or take run.engine: rodas (or auto, or ida).",
           "a contact or a gear holds a node without inertia, whose forces do not tell its speed"),
     Class("contacts between a node with mass and one without", REFUSED,
           "stepping does not hold contacts between a node with mass and one without ({}): of the latter it knows the "
-          "mean over a step", lambda system, _: system.uneven,
+          "mean over a step", lambda system, _: between_mass_and_none(system),
           "Give that node a mass, or take run.engine: rodas (or auto).",
           "a contact holds between a node with mass and one without"),
     Class("relations of positions (`hold_position`)", REFUSED,
           "stepping does not bring positions back to what {} keeps after every step, so they would drift",
-          lambda system, _: system.kept_positions, auto="it keeps relations of positions"),
+          lambda system, _: kept_positions(system), auto="it keeps relations of positions"),
     Class("rigid stops", REFUSED,
           "stepping rounds switches to its steps, and a rigid stop ({}) is met at an instant, with an impulse",
-          lambda system, _: system.rigid_stops,
+          lambda system, _: rigid_stops(system),
           "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
           "it locates the instants at which rigid stops are met"),
     Class("limits of friction given in time that turn ten times and more", LANDED,

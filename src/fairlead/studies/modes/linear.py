@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError
 from fairlead.system.compiled.asking import call, mass_of
+from fairlead.system.compiled.named_parts import kept_positions
 from fairlead.system.compiled.system import Instance
 from fairlead.system.start.places import ratios_at
 
@@ -94,7 +95,7 @@ def equations(instance: Instance, t: float, y: Floats, zones: Integers) -> Equat
 
 def _relations(instance: Instance, t: float, y: Floats) -> Floats:
     """Relations of positions in force, linearised: those of the positions, then those of their rates."""
-    ratios = ratios_at(instance, y) if instance.kept_positions else np.zeros((0, 0))
+    ratios = ratios_at(instance, y) if kept_positions(instance) else np.zeros((0, 0))
     rows, numbering = np.flatnonzero(ratios.any(axis=1)), instance.numbering
     made = np.zeros((2, len(rows), instance.n))
     for k, index in enumerate(numbering.accelerated if len(rows) else ()):

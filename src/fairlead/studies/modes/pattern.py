@@ -67,7 +67,7 @@ class Known:
 
     def sliding(self, machine: int) -> int | None:
         """The zone in which a contact slides; None where it has none, or several in a direction."""
-        block, _ = self.instance.machine_guards[machine]
+        block, _ = self.instance.machine_owners[machine]
         zones = block.kernel.variant.type.declaration.zones
         names = self.instance.zone_names(machine)
         there = [k for k, name in enumerate(names) if name in (*zones.forward, *zones.backward)]
@@ -89,7 +89,7 @@ class Known:
     @property
     def several(self) -> list[int]:
         """Parts with more than one zone of their own; pieces of tables and of what is given in time are none."""
-        return [k for k, (block, _) in enumerate(self.instance.machine_guards)
+        return [k for k, (block, _) in enumerate(self.instance.machine_owners)
                 if len(block.kernel.structure.zones) > 1
                 and list(block.kernel.structure.zones) == list(self.instance.zone_names(k))]  # fmt: skip
 
@@ -106,7 +106,7 @@ class Known:
     def _nearness(self, machine: int, zone: int) -> float:
         """The guard that leads to a zone from that in force: the nearer to 0, the nearer it is."""
         now = int(self.instance.zones[machine])
-        block, _ = self.instance.machine_guards[machine]
+        block, _ = self.instance.machine_owners[machine]
         s = block.kernel.structure
         leading = {slot for slot, one in enumerate(s.guards.get(s.zones[now], ())) if one["to"] == zone}
         values, places = guards_at(self.instance, self.t, self.y), self.instance.memory["guard_place"].reshape(-1, 4)

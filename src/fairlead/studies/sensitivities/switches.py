@@ -12,11 +12,6 @@ from collections.abc import Sequence
 from fairlead.results.events import Event
 
 
-def same_changes(one: Sequence[Event], other: Sequence[Event]) -> bool:
-    """Whether every component goes through the same zones in both runs."""
-    return _parted(one, other) is None
-
-
 def parting(one: Sequence[Event], other: Sequence[Event], names: tuple[str, str]) -> str:
     """A sentence about the first zone change in which the runs called `names` differ; "" where none differs."""
     found = _parted(one, other)

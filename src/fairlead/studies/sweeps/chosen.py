@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from fairlead.cases.row import FINISHED, KILLED
 from fairlead.errors import UsageError, did_you_mean, listing, shown
+from fairlead.quantities import digits
 
 if TYPE_CHECKING:
     import pandas
@@ -24,8 +25,9 @@ def refuse(words: Sequence[str], figures: Sequence[str], count: int) -> None:
     """Raise UsageError for a word that chooses nothing."""
     for word in words:
         kind, colon, figure = word.partition(":")
-        if word.isdecimal():
-            if int(word) >= count:
+        number = digits(word)
+        if number is not None:
+            if number >= count:
                 raise UsageError(f"--keep {word}: there are cases 0 to {count - 1}.")
         elif kind in ENDS and colon:
             if figure not in figures:
@@ -44,8 +46,9 @@ def chosen(words: Sequence[str], frame: pandas.DataFrame) -> list[int]:
     found: dict[int, None] = {}
     for word in words:
         kind, _, figure = word.partition(":")
-        if word.isdecimal():
-            rows = frame[frame["case"] == int(word)]
+        number = digits(word)
+        if number is not None:
+            rows = frame[frame["case"] == number]
         elif word == "failed":
             rows = frame[frame["status"] != FINISHED]
         elif word == "broken":

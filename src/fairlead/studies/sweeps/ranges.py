@@ -15,7 +15,7 @@ import re
 from decimal import Decimal, InvalidOperation
 
 from fairlead.errors import shown
-from fairlead.quantities import QuantityError, si
+from fairlead.quantities import MOST, QuantityError, digits, si
 
 MOST_VALUES = 100_000
 DIGITS = 12  # of a value that is spaced by factors
@@ -57,10 +57,10 @@ def _stepped(first: str, last: str, step: str) -> list[str]:
 
 
 def _spaced(kind: str, parts: list[str]) -> list[str]:
-    if len(parts) != 3 or not parts[2].isdecimal() or int(parts[2]) < 2:
+    count = digits(parts[2]) if len(parts) == 3 else None
+    if count is None or count < 2:
         raise RangeError(f"{kind} takes two ends and how many values, two at least")
     (a, b), unit = _numbers(parts[:2])
-    count = int(parts[2])
     if count > MOST_VALUES:
         raise RangeError(f"these are {count} values; a parameter has at most {MOST_VALUES}", "Take fewer.")
     if a == b:
@@ -84,9 +84,14 @@ def _numbers(texts: list[str]) -> tuple[list[Decimal], str]:
     if len(units) > 1:
         raise RangeError(f"the numbers have different units: {', '.join(units)}", "Write them in one unit.")
     try:
-        return [Decimal(one[1]) for one in found if one is not None], next(iter(units), "")
+        numbers = [Decimal(one[1]) for one in found if one is not None]
     except InvalidOperation:
         raise RangeError(f"{shown(', '.join(texts))}: not all are numbers") from None
+    for text, number in zip(texts, numbers, strict=True):
+        if abs(number) > MOST or 0 < abs(number) < 1 / MOST:
+            raise RangeError(f"{shown(text)} is too {'large' if abs(number) > 1 else 'small'} to compute with",
+                             f"Is the exponent meant? Numbers lie between {1 / MOST:g} and {MOST:g}.")  # fmt: skip
+    return numbers, next(iter(units), "")
 
 
 def _text(number: Decimal, unit: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Protocol
@@ -21,7 +22,7 @@ PLACE = Location("sweep")
 
 
 class Computers(Protocol):
-    """Whoever computes cases: `Farm`, or `Cluster`."""
+    """Whoever computes cases: `Farm`, `Here` or `Cluster`."""
 
     def rows(self, cases: Iterator[Case]) -> Iterator[tuple[int, Row]]:
         """Rows as they come."""
@@ -56,7 +57,8 @@ class Standing:
 Watch = Callable[[Standing], None]
 
 
-def sweep(job: Job, design: Design, folder: Path, *, computers: Callable[[Job], Any] | None = None,
+def sweep(job: Job, design: Design, folder: Path, *,
+          computers: Callable[[Job], AbstractContextManager[Computers]] | None = None,
           processes: int | None = None, force: bool = False, watch: Watch | None = None,
           ) -> tuple[SweepTable, Standing]:  # fmt: skip
     """Compute what is missing, by `computers` (a context), else by processes of this machine, one for each core.

@@ -16,12 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.component.assembly import PortRef
 from fairlead.component.declare import Carries
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import PARAMETER, key
 from fairlead.system.active.rest import Floats, Integers
 from fairlead.system.arrays.blocks import Block, place_of_motion
-from fairlead.system.arrays.shares import Share, shares
+from fairlead.system.arrays.portions import Portion, portions
 from fairlead.system.compiled.asking import call, guards_at, partials_at
 from fairlead.system.compiled.system import Instance
 
@@ -133,10 +133,10 @@ class Bonds:
         system, law = self.system, 0
         partials, guards = partials_at(system, t, y), guards_at(system, t, y)
         found: dict[int, list[tuple[float, Node]]] = defaultdict(list)
-        for block, share in zip(system.blocks, shares(system.blocks)[0], strict=True):
+        for block, portion in zip(system.blocks, portions(system.blocks)[0], strict=True):
             says = block.kernel.variant.type.declaration.carries
             if says is not None:
-                for nearest, node in self._of(block, says, share, law, partials, guards):
+                for nearest, node in self._of(block, says, portion, law, partials, guards):
                     found[node.by].append((nearest, node))
             law += block.count
         return [
@@ -145,14 +145,14 @@ class Bonds:
         ]  # fmt: skip
 
     def _of(
-        self, block: Block, says: Carries, share: Share, law: int, partials: Floats, guards: Floats
+        self, block: Block, says: Carries, portion: Portion, law: int, partials: Floats, guards: Floats
     ) -> list[tuple[float, Node]]:
         """The nodes of one block, and the guard of each that is nearest to letting it go."""
         s, here = block.kernel.structure, _in_zone(self.system, block, says)
-        slopes = partials[share.flows :][: block.count * len(s.d_flows)].reshape(block.count, -1)
+        slopes = partials[portion.flows :][: block.count * len(s.d_flows)].reshape(block.count, -1)
         entry = [s.targets.index(f"port:{says.node}"), s.inputs.index(f"port:{says.node}:v")]
         own = slopes[here, [list(pair) for pair in s.d_flows].index(entry)]
-        of_guards = guards[share.guards :][: block.count * s.slots].reshape(block.count, -1)[here]
+        of_guards = guards[portion.guards :][: block.count * s.slots].reshape(block.count, -1)[here]
         nearest = of_guards[:, : len(s.guards[says.zone])].max(axis=1, initial=-np.inf)
         ratio, read = _ratios(self.system, block, here)
         made = []

@@ -3,18 +3,18 @@
 Left out may be
 
     an entrained node       it stands for its carrier, see entrained.py
-    an unknown of a law     whose rate is settled, or that is algebraic, and whose row answers to nothing that varies
-    a law                   of which no value answers to anything that varies, and no guard either
+    an unknown of a law     whose rate is settled, or that is algebraic, and whose row depends on nothing that varies
+    a law                   of which no value depends on anything that varies, and no guard either
 
-What varies is found from what every value answers to (answers.py). It begins with all other unknowns, with time and
+What varies is found from what every value depends on (dependences.py). It begins with all other unknowns, with time and
 with what samples, and ends when nothing more is found. A law that stays may change its zone: all its values vary.
 
-A guard of a law that is left out may answer to one position alone, and be straight in it. Then the place at which it
+A guard of a law that is left out may depend on one position alone, and be straight in it. Then the place at which it
 fires is known. Of the guards of one position only the next ahead and the next behind are *monitored*: they are
 evaluated in every step, and when one fires, the whole goes on. The others cannot fire before them. Where the position
 varies by itself, the laws nearest to firing stay, `margin` of them at every border: monitored guards seldom fire then.
 
-A guard that is a group cannot fire while a member is negative that answers to nothing that varies.
+A guard that is a group cannot fire while a member is negative that depends on nothing that varies.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import OWN, key
-from fairlead.system.active.answers import Laws, answers
+from fairlead.system.active.dependences import Laws, dependences
 from fairlead.system.active.entrained import Entrained
 from fairlead.system.active.moving import Moving
 from fairlead.system.active.rest import Booleans, Floats, Integers
@@ -45,7 +45,7 @@ class Partition:
         y = along.aligned(system, t, y)
         self._may_rest = _may_rest(system, t, y)
         self._guards = guards_at(system, t, y)
-        self._found = answers(system, of, along, self._guards)
+        self._found = dependences(system, of, along, self._guards)
         self._position = _positions(system)
         self.varies, self.laws = self._beginning(), of.restless.copy()
         self._spread()
@@ -64,7 +64,7 @@ class Partition:
         return varies
 
     def _spread(self) -> None:
-        """Let vary what answers to what varies."""
+        """Let vary what depends on what varies."""
         of, found, n = self.of, self._found, self.system.n
         while True:
             value = (of.restless | (self.laws & of.zoned))[of.law]
@@ -80,7 +80,7 @@ class Partition:
             self.varies, self.laws = varies, now
 
     def _awake(self) -> tuple[Booleans, Booleans]:
-        """By member: whether it answers to something that varies and its guard may fire; and whether it is straight.
+        """By member: whether it depends on something that varies and its guard may fire; and whether it is straight.
 
         A straight one is that in one position, and in nothing else that varies.
         """

@@ -23,8 +23,8 @@ from fairlead.system.active.moving import Moving
 from fairlead.system.active.part import Part, hand_over, tie
 from fairlead.system.active.rest import Floats, Integers
 from fairlead.system.arrays.blocks import Block
+from fairlead.system.arrays.portions import portions
 from fairlead.system.arrays.recording import Recording, recording
-from fairlead.system.arrays.shares import shares
 from fairlead.system.compiled.asking import ask, call
 from fairlead.system.compiled.build import build
 from fairlead.system.compiled.system import Instance, System, begun
@@ -187,7 +187,7 @@ def _part_of(
 
 def _guards(system: System, pieces: Sequence[tuple[int, Block, Piece]]) -> Integers:
     """Which guards of the whole are those of these instances, in order."""
-    found, _ = shares(system.blocks)
+    found, _ = portions(system.blocks)
     of_piece = [
         (found[k].guards + block.kernel.structure.slots * piece.which[:, None]
          + np.arange(block.kernel.structure.slots)).ravel()

@@ -1,6 +1,6 @@
 """The active subsystem: what of a System must be computed for a while; an engine then runs that instead of the whole.
 
-Left out is what is entrained, with all that then answers to nothing (partition.py); or, where nothing is, what rests as
+Left out is what is entrained, with all that then depends on nothing (partition.py); or, where nothing is, what rests as
 long as what holds goes on holding (rest.py), but for a margin, so that motion may spread. Either says at its boundary
 when it ends: by the guards that are monitored, or by the contacts on which the rest leans. restriction.py makes a
 System of what is left.
@@ -13,7 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from fairlead.component.keys import OWN, key
-from fairlead.system.active.answers import Laws, laws
+from fairlead.kernels import layout
+from fairlead.system.active.dependences import Laws, laws
 from fairlead.system.active.entrained import Bonds, entrained, nothing_entrained
 from fairlead.system.active.moving import Moving
 from fairlead.system.active.part import Part
@@ -90,7 +91,8 @@ class Subsystem:
         """What is left without what rests and a margin around what moves."""
         system = self.system
         holds = system.memory["holds"]
-        if np.count_nonzero(system.zones[holds[:, 0]] == holds[:, 1]) < HOLDING * (1.0 - most) * system.n:
+        now = system.zones[holds[:, layout.HOLD_PLACE]] == holds[:, layout.HOLD_ZONE]
+        if np.count_nonzero(now) < HOLDING * (1.0 - most) * system.n:
             return None
         if self._facts is None:
             self._facts = anatomy(system), _reached_by(system), _sources(system)

@@ -30,8 +30,6 @@ OFTEN = 10
 """Turns of a limit, each of which may add a switch: what `stepping` makes wrong in that many is no longer a few weights
 (docs/stepping.md)."""
 Moves = Callable[[PiecewisePolynomial | Wave, float, float], bool]
-FIRST_SLOPE = 4
-"""Where in a row of a polynomial the coefficients begin that make it vary."""
 
 
 def timed_limits(system: System, start: float, stop: float, *, turning: bool = False) -> list[str]:
@@ -83,17 +81,14 @@ def _moves(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool
     """True if this quantity in time varies inside a piece in force between start and stop."""
     if any(turns > 0 for turns in _swings(given, start, stop)):
         return True
-    rows = polynomial(given).rows
-    some = (rows[:, 1] > start) & (rows[:, 0] < stop)
-    return bool(rows[some, FIRST_SLOPE:].any())
+    return bool(_terms_between(polynomial(given), start, stop)[:, 1:].any())
 
 
 def _turns(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool:
     """True if this quantity in time turns up and down OFTEN between start and stop; a curved piece is a turn."""
     if any(turns >= OFTEN for turns in _swings(given, start, stop)):
         return True
-    rows = polynomial(given).rows
-    slopes = rows[(rows[:, 1] > start) & (rows[:, 0] < stop), FIRST_SLOPE:]
+    slopes = _terms_between(polynomial(given), start, stop)[:, 1:]
     ways = np.sign(slopes[:, 0])[slopes[:, 0] != 0.0]
     return bool(np.count_nonzero(np.diff(ways)) + np.count_nonzero(slopes[:, 1:].any(axis=1)) >= OFTEN)
 
@@ -101,10 +96,13 @@ def _turns(given: PiecewisePolynomial | Wave, start: float, stop: float) -> bool
 def _swings(given: PiecewisePolynomial | Wave, start: float, stop: float) -> Iterator[float]:
     """How often each sine of a quantity in time turns between start and stop, while its amplitude is not zero."""
     for part in given.parts if isinstance(given, Wave) else ():
-        rows = part.polynomial.rows
-        rows = rows[rows[:, FIRST_SLOPE - 1 :].any(axis=1)]
-        lasts = np.clip(rows[:, 1], start, stop) - np.clip(rows[:, 0], start, stop)
-        yield float(abs(part.omega) * lasts.sum() / np.pi)
+        lasts = np.clip(part.polynomial.right, start, stop) - np.clip(part.polynomial.left, start, stop)
+        yield float(abs(part.omega) * lasts[part.polynomial.terms.any(axis=1)].sum() / np.pi)
+
+
+def _terms_between(given: PiecewisePolynomial, start: float, stop: float) -> NDArray[np.float64]:
+    """Coefficients of the pieces in force between start and stop."""
+    return given.terms[(given.right > start) & (given.left < stop)]
 
 
 def _spread(system: System, beating: list[Booleans], varies: Booleans) -> Booleans:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, RATE, TAU, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import input_given, parameter, polynomial

@@ -10,26 +10,26 @@ import numpy as np
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.layout import STORED_ENERGY
 from fairlead.system.arrays.blocks import Block, Integers
+from fairlead.system.arrays.portions import Portion
 from fairlead.system.arrays.recording import OutputSignal
-from fairlead.system.arrays.shares import Share
 from fairlead.system.numbering.unknowns import Numbering
 
 
-def stored(blocks: Sequence[Block], shares: Sequence[Share]) -> Integers:
+def stored(blocks: Sequence[Block], portions: Sequence[Portion]) -> Integers:
     """Where among all outputs the stored energy of every instance lies that may have some."""
     found: list[int] = []
-    for block, share in zip(blocks, shares, strict=True):
+    for block, portion in zip(blocks, portions, strict=True):
         names = block.kernel.structure.all_outputs
         if block.kernel.structure.stores:
-            found += [share.outputs + i * len(names) + names.index(STORED_ENERGY) for i in range(block.count)]
+            found += [portion.outputs + i * len(names) + names.index(STORED_ENERGY) for i in range(block.count)]
     return np.array(found, dtype=np.int64)
 
 
 def signals(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering
+    flat: FlatModel, blocks: Sequence[Block], portions: Sequence[Portion], numbering: Numbering
 ) -> list[OutputSignal]:
     """Every output of every instance, also under the outer names of composites, and the ledger."""
-    found = [signal for pair in zip(blocks, shares, strict=True) for signal in _of_block(*pair)]
+    found = [signal for pair in zip(blocks, portions, strict=True) for signal in _of_block(*pair)]
     by_name = {signal.name: signal for signal in found}
     for outer, inner in flat.assembly.aliases.items():
         if str(inner) in by_name and outer != str(inner):
@@ -41,12 +41,12 @@ def signals(
     return found + ledger
 
 
-def _of_block(block: Block, share: Share) -> list[OutputSignal]:
+def _of_block(block: Block, portion: Portion) -> list[OutputSignal]:
     s, has = block.kernel.structure, block.kernel.variant.type.declaration
     return [
         OutputSignal(
             f"{instance.path}.{name}", has.outputs[name].unit, has.outputs[name].doc,
-            share.outputs + i * len(s.all_outputs) + k, has.outputs[name].role, has.outputs[name].rounded_by,
+            portion.outputs + i * len(s.all_outputs) + k, has.outputs[name].role, has.outputs[name].rounded_by,
         )
         for i, instance in enumerate(block.instances)
         for k, name in enumerate(s.outputs)

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from fairlead.component.instantiate import Instance
+from fairlead.component.assembly import Instance
 from fairlead.errors import FairleadError, RunWarning, shown
 from fairlead.system.arrays.blocks import Block, Memory
 from fairlead.system.numbering.unknowns import Numbering

@@ -11,7 +11,7 @@ from fairlead.component.declare import CREEP, INTEGRAL, PULL, STRAIN, USED_UP
 from fairlead.kernels import layout
 from fairlead.patterns import picked
 from fairlead.system.arrays.blocks import Block, Integers, Memory
-from fairlead.system.arrays.shares import shares
+from fairlead.system.arrays.portions import portions
 from fairlead.system.arrays.shown import flows_to_ask, what_to_ask
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -81,7 +81,7 @@ def recording(
     """What the callbacks must know to record this; the counts of other modes are those of the System."""
     selected = np.array([s.at for s in recorded], dtype=np.int64)
     counts = memory["counts"].copy()
-    counts[layout.OUTPUT], late = what_to_ask(blocks, shares(blocks)[0], selected)
+    counts[layout.OUTPUT], late = what_to_ask(blocks, portions(blocks)[0], selected)
     flows = flows_to_ask(blocks, numbering, memory, late) if len(late) else np.zeros((0, layout.CALL), dtype=np.int64)
     rates = layout.NO_RATES if not len(late) else layout.ALL_RATES if flows is None else layout.SOME_RATES
     if flows is None:

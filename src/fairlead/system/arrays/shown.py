@@ -17,20 +17,20 @@ from fairlead.kernels import layout
 from fairlead.kernels.layout import STORED_ENERGY
 from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.following import runs
-from fairlead.system.arrays.shares import Share
+from fairlead.system.arrays.portions import Portion
 from fairlead.system.numbering.unknowns import Numbering
 
 
-def what_to_ask(blocks: Sequence[Block], shares: Sequence[Share], shown: Integers) -> tuple[Integers, Integers]:
+def what_to_ask(blocks: Sequence[Block], portions: Sequence[Portion], shown: Integers) -> tuple[Integers, Integers]:
     """By block: how many instances are asked for outputs, to record those at the places `shown` and the stored energy.
 
     And where in z lies what is read by those of them that read what is known only after the forces.
     """
     counts, late = np.zeros(len(blocks), dtype=np.int64), [np.zeros(0, dtype=np.int64)]
-    for k, (block, share) in enumerate(zip(blocks, shares, strict=True)):
+    for k, (block, portion) in enumerate(zip(blocks, portions, strict=True)):
         s = block.kernel.structure
-        mine = shown[(shown >= share.outputs) & (shown < share.outputs + block.count * len(s.all_outputs))]
-        instance, output = np.divmod(mine - share.outputs, len(s.all_outputs))
+        mine = shown[(shown >= portion.outputs) & (shown < portion.outputs + block.count * len(s.all_outputs))]
+        instance, output = np.divmod(mine - portion.outputs, len(s.all_outputs))
         stores = np.flatnonzero(np.full(block.count, s.stores))
         instance = np.concatenate([instance, stores])
         output = np.concatenate([output, np.full(len(stores), s.all_outputs.index(STORED_ENERGY))])

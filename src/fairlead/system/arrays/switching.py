@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import PORT, key
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout

@@ -13,11 +13,11 @@ without inertia", has the page.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.keys import OWN, PORT, RATE, key, rate_of
 from fairlead.distinct import distinct
 from fairlead.errors import Fault
@@ -34,7 +34,7 @@ HELD, FIRM, SOFT = 0, 1, 2
 """What joins speeds: a row that holds, a force in proportion to a speed, one that depends on it in another way."""
 
 
-class Join(NamedTuple):
+class SpeedJoin(NamedTuple):
     """What joins the speeds of rated groups in one zone of an instance."""
 
     path: str
@@ -46,7 +46,7 @@ class Join(NamedTuple):
 
 def rated_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
     """Groups without inertia or damping of which a law reads the speed, and whose forces know the position."""
-    light = {k for k, g in enumerate(flat.groups) if g.free and g.mass == 0 and g.domain.mechanical}
+    light = _without_inertia(flat)
     if not light:
         return set()
     read, sprung, damped = set[int](), set[int](), set[int]()
@@ -66,6 +66,29 @@ def rated_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[in
     for k in found:
         found += (ends[k] & light) - damped - set(found)
     return set(found)
+
+
+def without_damping(flat: FlatModel, structures: Mapping[str, Structure]) -> set[tuple[str, str]]:
+    """What would follow a speed at a node without inertia, were its coefficient not zero: component, port or zone.
+
+    These zeros decide, with the connections, which groups are rated and which joins hold: with others, a model is of
+    another structure.
+    """
+    light = _without_inertia(flat)
+    if not light:
+        return set()
+    found = set()
+    for instance in flat.instances:
+        s = structures[instance.path]
+        texts = [(port, text) for port, text in s.dampings.items()
+                 if flat.place(PortRef(instance.path, port))[0] in light]  # fmt: skip
+        texts += [(zone, one["slope"]) for zone, here in s.joins.items() for one in here if _kind(one) == FIRM]
+        found |= {(instance.path, where) for where, text in texts if not number_of(text, instance.values)}
+    return found
+
+
+def _without_inertia(flat: FlatModel) -> set[int]:
+    return {k for k, g in enumerate(flat.groups) if g.free and g.mass == 0 and g.domain.mechanical}
 
 
 def geared_groups(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
@@ -111,14 +134,14 @@ def touching(flat: FlatModel, groups: set[int]) -> set[str]:
     return {ref.instance for k in groups for node in flat.groups[k].nodes for ref in flat.nodes[node].ports}
 
 
-def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]) -> list[Join]:
+def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]) -> list[SpeedJoin]:
     """All that may join the speeds of rated groups to one another, or to what is known."""
     found = []
     for instance in flat.instances:
         s = structures[instance.path]
         for zone, here in s.joins.items():
             for one in here:
-                kind = HELD if one["slope"] == "held" else SOFT if not one["slope"] else FIRM
+                kind = _kind(one)
                 if kind == FIRM and not number_of(one["slope"], instance.values):
                     continue
                 weighed: dict[int, float] = {}
@@ -127,8 +150,13 @@ def joins(flat: FlatModel, structures: Mapping[str, Structure], groups: set[int]
                     if index in groups:
                         weighed[index] = weighed.get(index, 0.0) + ratio * weight
                 if weighed:
-                    found.append(Join(instance.path, zone, kind, tuple(weighed), tuple(weighed.values())))
+                    found.append(SpeedJoin(instance.path, zone, kind, tuple(weighed), tuple(weighed.values())))
     return found
+
+
+def _kind(join: Mapping[str, Any]) -> int:
+    """What sort of join this is, as `flow_rates.joins` has written it."""
+    return HELD if join["slope"] == "held" else SOFT if not join["slope"] else FIRM
 
 
 def unfit_nodes(
@@ -227,7 +255,7 @@ def _yielding(flat: FlatModel, structures: Mapping[str, Structure], groups: set[
     return {flat.place(ref)[0] for ref in refs}
 
 
-def rated_terms(numbering: Numbering, found: Sequence[Join]) -> list[tuple[int, int]]:
+def rated_terms(numbering: Numbering, found: Sequence[SpeedJoin]) -> list[tuple[int, int]]:
     """Pairs (i, j) of rated nodes: the row of i may have the rate of the balance of j."""
     number = {index: k for k, index in enumerate(numbering.rated)}
     joined = connected_parts(of_paths(range(len(number)), ([number[index] for index in one.groups] for one in found)))
@@ -237,7 +265,7 @@ def rated_terms(numbering: Numbering, found: Sequence[Join]) -> list[tuple[int, 
 def add_rated_entries(entries: Entries, memory: Memory, m: int, first: int) -> None:
     """Add what df/dy has more: rates of balances in rows of nodes; at `first` among the partials begin the shares."""
     for k, (i, j) in enumerate(memory["rated_terms"].tolist()):
-        row, z = memory["rated"][i, 0] + m, memory["rated"][j, 1]
+        row, z = memory["rated"][i, layout.RATED_ROW] + m, memory["rated"][j, layout.RATED_RATE]
         entries.add(np.array([row]), np.array([z]), np.array([first + k]), np.ones(1))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.timing import OPEN
@@ -19,7 +19,7 @@ def may_open(flat: FlatModel, numbering: Numbering, blocks: list[Block], part: s
     """Contacts pressed by what changes in a part in which gears of three shafts close circles; none of another part."""
     owners = {path for (path, _), at in numbering.own.items() if at in part}
     alone = not part - {at for (path, _), at in numbering.own.items() if path in owners}
-    cannot, many = sharing(blocks, owners)
+    cannot, many = never_sharing(blocks, owners)
     if not alone or not many or cannot or not owners <= holding(blocks):
         return set()
     can_open = (one for block in blocks if OPEN in block.kernel.structure.zones for one in block.instances)
@@ -36,8 +36,8 @@ def _changes(flat: FlatModel, ref: PortRef) -> bool:
     return not inputs or any(_changes(flat, PortRef(source.instance, name)) for name in inputs)
 
 
-def sharing(blocks: list[Block], wanted: Collection[str]) -> tuple[list[str], list[str]]:
-    """Of these: whose force does not act on its ports with fixed numbers, and who joins more than two bodies."""
+def never_sharing(blocks: list[Block], wanted: Collection[str]) -> tuple[list[str], list[str]]:
+    """Of these, who cannot share a load: by a force without fixed numbers at its ports; by joining over two bodies."""
     cannot, many = list[str](), list[str]()
     for block in blocks:
         s = block.kernel.structure

@@ -16,13 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.errors import listing
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
-from fairlead.system.assembly.left_open import OPEN
+from fairlead.system.assembly.left_open import WORDS
 
 SAME = 1e-9
 """Share of its terms by which a sum of derivatives may differ from zero; rounding leaves less."""
@@ -30,7 +30,7 @@ AT = (0.7, 1.9, 0.3, 2.3, 1.1, 0.5, 3.1)
 """Numbers at which derivatives are compared, far from each other."""
 
 
-class Open(NamedTuple):
+class Levelless(NamedTuple):
     """Groups whose common level nothing determines, and the parts whose flow into them is a state."""
 
     groups: list[int]
@@ -45,15 +45,15 @@ class _Reads(NamedTuple):
     anchored: bool
 
 
-def without_level(flat: FlatModel, blocks: list[Block]) -> Iterator[Open]:
+def without_level(flat: FlatModel, blocks: list[Block]) -> Iterator[Levelless]:
     """Parts of the model that nothing gives a level, by groups of nodes."""
-    light = {k for k, one in enumerate(flat.groups) if one.free and one.mass == 0 and one.domain.name in OPEN}
+    light = {k for k, one in enumerate(flat.groups) if one.free and one.mass == 0 and one.domain.name in WORDS}
     if not light:
         return
     joints, anchors, keeping = [], set(range(len(flat.groups))) - light, list[tuple[int, str]]()
     laws: list[tuple[Block, str, set[int]]] = []
     for block in blocks:
-        for domain in OPEN:
+        for domain in WORDS:
             said = _reads(block, domain)
             for instance in block.instances if said.joined or said.keeping else ():
                 at = {name: _group(flat, instance.path, name) for name in (*said.joined, *said.keeping)}
@@ -67,7 +67,7 @@ def without_level(flat: FlatModel, blocks: list[Block]) -> Iterator[Open]:
         if part <= light and part.isdisjoint(anchors) and not any(
             part & groups and not _by_differences(block, domain) for block, domain, groups in laws
         ):  # fmt: skip
-            yield Open(sorted(part), list(dict.fromkeys(path for group, path in keeping if group in part)))
+            yield Levelless(sorted(part), list(dict.fromkeys(path for group, path in keeping if group in part)))
 
 
 def _group(flat: FlatModel, path: str, port: str) -> int | None:

@@ -1,40 +1,30 @@
 """Whether the equations determine the unknowns: a matching of unknowns with equations, by structure alone.
 
-At a point with its zones frozen the rates of differential unknowns and the values of algebraic ones are to be
-found. Each needs an equation of its own that contains it: a perfect matching in the graph
-
-    differential unknown j -- row i    M_ij may be non-zero in the zones in force
-    algebraic unknown j    -- row i    df_i/dy_j may be non-zero in them
-
-The zones are those a run begins in, the first of each component. An unknown left over, with all that
-alternating paths lead to from it, is the underdetermined part (Dulmage and Mendelsohn 1958), named by its nodes.
-Where all are matched, parts that ask for differences of potentials alone are left, see common_level.py.
+Each unknown needs an equation of its own that contains it: incidence.py says which may, in the zones a run begins in,
+the first of each component, and matching.py finds what is left over. That part is blamed here, by the names of its
+nodes or components, with a way out. Where all are matched, parts that ask for differences of potentials alone are left,
+see common_level.py.
 """
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable, Iterator
 
-import numpy as np
-
+from fairlead.component.assembly import PortRef
 from fairlead.component.base import Family
 from fairlead.component.declare import ELECTRICAL, ROTATIONAL
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, key
 from fairlead.component.replies import is_bundled
 from fairlead.errors import Fault, Location
 from fairlead.flatten.flat_model import FlatModel, Node
 from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.system.arrays.blocks import Block
-from fairlead.system.arrays.shares import shares
-from fairlead.system.assembly.algebraic_nodes import rows_without_rates
-from fairlead.system.assembly.begin_open import holding, may_open, sharing
-from fairlead.system.assembly.common_level import Open as WithoutLevel
-from fairlead.system.assembly.common_level import said_of, without_level
-from fairlead.system.assembly.left_open import OPEN, as_written
-from fairlead.system.assembly.light_holds import held_entries, light_parts, relations
-from fairlead.system.numbering.unknowns import Numbering, part_rows
+from fairlead.system.assembly.begin_open import holding, may_open, never_sharing
+from fairlead.system.assembly.common_level import Levelless, said_of, without_level
+from fairlead.system.assembly.incidence import incidence
+from fairlead.system.assembly.left_open import WORDS, as_written
+from fairlead.system.assembly.matching import unmatched
+from fairlead.system.numbering.unknowns import Numbering
 
 IN_SERIES = (
     "Write their inductances as one: give one of them the sum, and take the other out (or a Resistor in its place). A "
@@ -56,10 +46,10 @@ def undetermined(
     faults = [*_unknown_speeds(flat, numbering, blocks), *_floating(flat, blocks)]
     if faults or all(unknown.differential for unknown in numbering.unknowns):
         return faults, frozenset()
-    parts = _unmatched(_incidence(flat, numbering, blocks, start=True))
+    parts = unmatched(incidence(flat, numbering, blocks, start=True))
     if not parts:
         return [_levelless(flat, one) for one in without_level(flat, blocks)], frozenset()
-    always = set().union(*_unmatched(_incidence(flat, numbering, blocks, start=False)))
+    always = set().union(*unmatched(incidence(flat, numbering, blocks, start=False)))
     to_open: set[str] = set()
     for part in parts:
         contacts = set() if part & always else may_open(flat, numbering, blocks, part)
@@ -115,14 +105,14 @@ def _floating(flat: FlatModel, blocks: list[Block]) -> Iterator[Fault]:
             way_out = f"Join one of them to {'a Housing' if turning else 'a Ground'} or a source of motion, "
             way_out += "or add an Inertia." if turning else "or add a Mass."
             if not any(node.domain.mechanical for node in nodes):
-                hangs, way_out = OPEN[nodes[0].domain.name].hangs, OPEN[nodes[0].domain.name].anchor
+                hangs, way_out = WORDS[nodes[0].domain.name].hangs, WORDS[nodes[0].domain.name].anchor
             yield Fault(_written(flat, nodes[0]), f"{_named(flat, nodes)} {hangs}.", way_out)
 
 
-def _levelless(flat: FlatModel, one: WithoutLevel) -> Fault:
+def _levelless(flat: FlatModel, one: Levelless) -> Fault:
     """The fault of a part whose common level nothing determines."""
     nodes = [flat.nodes[number] for k in one.groups for number in flat.groups[k].nodes]
-    words = OPEN[nodes[0].domain.name]
+    words = WORDS[nodes[0].domain.name]
     plain = said_of(one.keeping, words.quantity)
     if len(nodes) == 1:
         plain = plain.replace("are joined", "is joined", 1).replace("of their", "of its")
@@ -199,7 +189,7 @@ def _index(block: Block, owners: Iterable[str]) -> int:
 def _unequal(blocks: list[Block], owners: Iterable[str]) -> str:
     """The words for holds that cannot share: force and slip are not joined by numbers (see `held_pairs`)."""
     wanted = set(owners)
-    cannot, many = sharing(blocks, wanted)
+    cannot, many = never_sharing(blocks, wanted)
     if many and not cannot:
         return f"{_and(many)} join{'s' if len(many) == 1 else ''} more than two bodies that move"
     return f"the force of {_and(cannot or wanted)} does not act on its ports with fixed numbers, those of its slip"
@@ -241,7 +231,7 @@ def _written(flat: FlatModel, node: Node) -> Location:
 
 def _way_out(node: Node, joined: bool) -> str:
     if not node.domain.mechanical:
-        return OPEN[node.domain.name].way_out
+        return WORDS[node.domain.name].way_out
     body = "a Mass" if node.domain.name == "translational" else "an Inertia"
     if joined:
         return f"Add {body} there, join the two contacts into one, or write friction: {{method: binding}}."
@@ -266,132 +256,3 @@ def _hold(paths: Iterable[str]) -> str:
 def _and(names: Iterable[str]) -> str:
     *first, last = list(names)[: 2 * MOST_NAMED]
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def _incidence(flat: FlatModel, numbering: Numbering, blocks: list[Block], *, start: bool) -> list[set[int]]:
-    """Per unknown the rows that may contain it: its rate if it is differential, else itself."""
-    rows_of: list[set[int]] = [{j} if u.differential else set() for j, u in enumerate(numbering.unknowns)]
-    algebraic = np.array([not u.differential for u in numbering.unknowns])
-    rated = {numbering.rate[index] for index in numbering.rated}
-    for x, v in numbering.pairs:
-        if algebraic[v]:
-            rows_of[v] |= {x, v} if v in rated else {x}
-    for index, a in numbering.accelerated.items():
-        rows_of[a] |= {a, numbering.rate[index]}
-    balances = part_rows(flat, numbering)
-    for part in balances:
-        if part.acceleration < numbering.n and part.mass > 0:
-            rows_of[part.acceleration].add(part.row)
-    to_whole = {part.row: part.whole for part in balances if part.whole < numbering.n}
-    signals = _Signals(numbering, blocks, algebraic)
-    for block in blocks:
-        s = block.kernel.structure
-        for zone in s.zones[:1] if start else s.zones:
-            for k, target in enumerate(s.targets):
-                for one in s.flow_inputs[zone].get(target, ()):
-                    _enter(rows_of, block, k, s.inputs.index(one), signals, to_whole)
-    _enter_rates(rows_of, numbering, blocks, algebraic, start=start)
-    for pair in numbering.circles:
-        force = numbering.own[pair.path, pair.unknown]
-        sharing = {force, *(numbering.share[index] for index, _ in pair.ends if index in numbering.share)}
-        for at in sharing:
-            rows_of[at] |= sharing
-    return rows_of
-
-
-def _enter_rates(
-    rows_of: list[set[int]], numbering: Numbering, blocks: list[Block], algebraic: np.ndarray, *, start: bool
-) -> None:
-    """Rows that hold contain the rates of the speeds they hold, also those they hold through nodes without inertia."""
-    without, held = rows_without_rates(blocks, numbering), set[int]()
-    for block in blocks:
-        s = block.kernel.structure
-        for unknown, j in s.mass:
-            if s.zones[0] in s.holds[unknown] or not start:
-                row, column = block.flow_index[:, s.targets.index(f"own:{unknown}")], block.in_index[:, j]
-                held.update(row.tolist())
-                in_mass = (column < numbering.n) & ~np.isin(row, without)
-                for r, c in zip(row[in_mass].tolist(), column[in_mass].tolist(), strict=True):
-                    if not algebraic[c]:
-                        rows_of[c].add(r)
-    for r, c in relations(light_parts(blocks, held_entries(blocks, shares(blocks)[0], numbering), numbering)):
-        if r in held:
-            rows_of[c].add(r)
-
-
-def _enter(rows_of: list[set[int]], block: Block, k: int, j: int, signals: _Signals, to_whole: dict[int, int]) -> None:
-    """Target k of every instance contains input j; with the balance of a part, that of its body too."""
-    n, algebraic = signals.n, signals.algebraic
-    for row, z in zip(block.flow_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
-        if row < n:
-            for column in (z,) if z < n else signals.columns(z - n):
-                if algebraic[column]:
-                    rows_of[column] |= {row, to_whole.get(row, row)}
-
-
-class _Signals:
-    """Which algebraic unknowns the value of a signal depends on, through other signals too."""
-
-    def __init__(self, numbering: Numbering, blocks: list[Block], algebraic: np.ndarray) -> None:
-        self.n, self.dump, self.algebraic = numbering.n, numbering.dump, algebraic
-        self.blocks = blocks
-        self.known: dict[int, set[int]] = {}
-
-    @functools.cached_property
-    def inputs(self) -> dict[int, list[int]]:
-        """Per signal, the places in z that it reads."""
-        found: dict[int, list[int]] = {}
-        for block in self.blocks:
-            for k, j in block.kernel.structure.d_signals:
-                for signal, z in zip(block.sig_index[:, k].tolist(), block.in_index[:, j].tolist(), strict=True):
-                    if signal != self.dump:
-                        found.setdefault(signal - self.n, []).append(z)
-        return found
-
-    def columns(self, signal: int) -> set[int]:
-        """The unknowns a signal depends on; empty for reactions, zero and time."""
-        if signal not in self.known:
-            self.known[signal] = set()
-            for z in self.inputs.get(signal, ()):
-                self.known[signal] |= ({z} if self.algebraic[z] else set()) if z < self.n else self.columns(z - self.n)
-        return self.known[signal]
-
-
-def _unmatched(rows_of: list[set[int]]) -> list[set[int]]:
-    """Unknowns that a maximum matching leaves over, each with all that alternating paths lead to; disjoint parts."""
-    row_of = {column: column for column, rows in enumerate(rows_of) if column in rows}
-    column_of = dict(row_of)
-    parts: list[set[int]] = []
-    for column in range(len(rows_of)):
-        reached = set() if column in row_of else _augment(column, rows_of, row_of, column_of)
-        if reached:
-            joined = [part for part in parts if part & reached]
-            parts = [part for part in parts if not part & reached] + [reached.union(*joined)]
-    return parts
-
-
-def _augment(column: int, rows_of: list[set[int]], row_of: dict[int, int], column_of: dict[int, int]) -> set[int]:
-    """Match one more unknown along an alternating path (breadth first), or return the unknowns it could reach."""
-    came_from: dict[int, int] = {}  # row -> the unknown it was reached from
-    reached, queue = {column}, [column]
-    for current in queue:
-        for row in rows_of[current] - came_from.keys():
-            came_from[row] = current
-            if row not in column_of:
-                _flip(row, column, came_from, row_of, column_of)
-                return set()
-            if column_of[row] not in reached:
-                reached.add(column_of[row])
-                queue.append(column_of[row])
-    return reached
-
-
-def _flip(row: int, column: int, came_from: dict[int, int], row_of: dict[int, int], column_of: dict[int, int]) -> None:
-    """Give every unknown on the path back to `column` the row it was reached through."""
-    while True:
-        owner = came_from[row]
-        before = row_of.get(owner)
-        row_of[owner], column_of[row] = row, owner
-        if owner == column or before is None:
-            return
-        row = before

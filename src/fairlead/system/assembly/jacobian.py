@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
-from fairlead.system.arrays.shares import Share
+from fairlead.system.arrays.portions import Portion
 from fairlead.system.assembly.algebraic_nodes import add_rated_entries
 from fairlead.system.assembly.light_holds import add_light_entries
 from fairlead.system.assembly.program import Entries, Program, plan
@@ -21,7 +21,7 @@ from fairlead.system.numbering.unknowns import LEDGER, Numbering, part_rows, rea
 
 
 def jacobian(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, rows: Memory, more: int
+    flat: FlatModel, blocks: Sequence[Block], portions: Sequence[Portion], numbering: Numbering, rows: Memory, more: int
 ) -> Program:
     """Plan of the assembly of df/dy and df/dt, signals eliminated.
 
@@ -35,24 +35,24 @@ def jacobian(
     light = partials + len(rows["rated_terms"])
     add_light_entries(entries, rows, m, light)
     to_whole = {one.row: (one.whole, one.sign) for one in part_rows(flat, numbering)}
-    for block, share in zip(blocks, shares, strict=True):
+    for block, portion in zip(blocks, portions, strict=True):
         if block.acts:
-            _entries(block, share, numbering, entries, m, to_whole)
+            _entries(block, portion, numbering, entries, m, to_whole)
     _fixed_entries(flat, numbering, entries, m)
-    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, shares, light + len(rows["light_terms"]))
+    level, fixed = _levels(blocks, numbering, m), _fixed(blocks, portions, light + len(rows["light_terms"]))
     return plan(entries, numbering.n, m, level, fixed, list(numbering.ledger.values()))
 
 
-def _fixed(blocks: Sequence[Block], shares: Sequence[Share], count: int) -> NDArray[np.bool_]:
+def _fixed(blocks: Sequence[Block], portions: Sequence[Portion], count: int) -> NDArray[np.bool_]:
     """Which partial derivatives never change: those the kernels say, and the constant 1."""
     fixed = np.zeros(count, dtype=bool)
     fixed[0] = True
-    for block, share in zip(blocks, shares, strict=True):
+    for block, portion in zip(blocks, portions, strict=True):
         s = block.kernel.structure
         parts = (
-            (share.signals, s.d_signals, s.fixed_signals),
-            (share.flows, s.d_flows, s.fixed_flows),
-            (share.ledger, s.d_ledger, s.fixed_ledger),
+            (portion.signals, s.d_signals, s.fixed_signals),
+            (portion.flows, s.d_flows, s.fixed_flows),
+            (portion.ledger, s.d_ledger, s.fixed_ledger),
         )
         for first, pairs, which in parts:
             for e in which:
@@ -72,14 +72,14 @@ def _levels(blocks: Sequence[Block], numbering: Numbering, m: int) -> Integers:
     return level
 
 
-def _entries(block: Block, share: Share, numbering: Numbering, entries: Entries, m: int,
+def _entries(block: Block, portion: Portion, numbering: Numbering, entries: Entries, m: int,
              to_whole: Mapping[int, tuple[int, float]]) -> None:  # fmt: skip
     """What one block adds; in balances of parts also to those of their bodies."""
     s, count = block.kernel.structure, np.arange(block.count)
     kinds = (
-        (s.d_signals, share.signals, "signal"),
-        (s.d_flows, share.flows, "flow"),
-        (s.d_ledger, share.ledger, "ledger"),
+        (s.d_signals, portion.signals, "signal"),
+        (s.d_flows, portion.flows, "flow"),
+        (s.d_ledger, portion.ledger, "ledger"),
     )
     for pairs, first, kind in kinds:
         for e, (k, j) in enumerate(pairs):

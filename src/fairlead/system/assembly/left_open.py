@@ -10,7 +10,7 @@ from fairlead.system.numbering.unknowns import Numbering
 MOST_NAMED = 6  # ports of a node in one message
 
 
-class Open(NamedTuple):
+class Words(NamedTuple):
     """Words about a node that nothing determines, in one domain."""
 
     quantity: str
@@ -21,8 +21,8 @@ class Open(NamedTuple):
     level: str
 
 
-OPEN = {
-    "hydraulic": Open(
+WORDS = {
+    "hydraulic": Words(
         "pressure",
         "Nothing gives way there: what flows in has to flow out at once, whatever the pressure is",
         "Add a Volume there, which is oil that gives way, or a Leak or an Orifice to a place whose pressure is known.",
@@ -30,7 +30,7 @@ OPEN = {
         "Join one of them to a Tank or a PressureSource, or add a Volume.",
         "Add a Volume there, which is oil that gives way.",
     ),
-    "electrical": Open(
+    "electrical": Words(
         "voltage",
         "No current there depends on it",
         "Join the circuit to an Earth, or add a Resistor or a Capacitor from there to a place whose voltage is known.",
@@ -38,7 +38,7 @@ OPEN = {
         "Join one of them to an Earth.",
         "Join one of them to an Earth; by a Resistor of some kiloohm, if no current is to flow there.",
     ),
-    "thermal": Open(
+    "thermal": Words(
         "temperature",
         "No heat flow there depends on it, and nothing there takes up heat",
         "Add a HeatCapacity there, or a HeatConductor to a FixedTemperature.",
@@ -61,8 +61,8 @@ def left_open(flat: FlatModel, numbering: Numbering, unknown: str) -> str:
     """What to say of an unknown that the equations of a run leave open; "" where it is none of these quantities."""
     for index, at in numbering.position.items():
         group = flat.groups[index]
-        if numbering.unknowns[at].name == unknown and group.domain.name in OPEN:
-            said = OPEN[group.domain.name]
+        if numbering.unknowns[at].name == unknown and group.domain.name in WORDS:
+            said = WORDS[group.domain.name]
             names = [name for number in group.nodes for name in as_written(flat, flat.nodes[number])]
             shown = ", ".join(names[:MOST_NAMED]) + (", ..." if len(names) > MOST_NAMED else "")
             return f"the equations do not determine the {said.quantity} at {shown}. {said.why}. {said.way_out}"

@@ -29,7 +29,7 @@ from fairlead.flatten.graph import connected_parts, of_paths
 from fairlead.kernels import layout
 from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
-from fairlead.system.arrays.shares import Share, shares
+from fairlead.system.arrays.portions import Portion, portions
 from fairlead.system.assembly.program import Entries as PlanEntries
 from fairlead.system.numbering.unknowns import Numbering
 
@@ -61,25 +61,25 @@ class Part(NamedTuple):
     heavy: list[int]
 
 
-def held_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Entries:
+def held_entries(blocks: Sequence[Block], laid: Sequence[Portion], numbering: Numbering) -> Entries:
     """Every unknown speed in a row that holds."""
-    every = _read(blocks, shared, "")
+    every = _read(blocks, laid, "")
     known = every.z < numbering.n
     return Entries(every.row[known], every.z[known], every.partial[known], every.coef[known])
 
 
-def supported_entries(blocks: Sequence[Block], shared: Sequence[Share], numbering: Numbering) -> Supported:
+def supported_entries(blocks: Sequence[Block], laid: Sequence[Portion], numbering: Numbering) -> Supported:
     """Every acceleration of a support that a row that holds reads."""
-    every = _read(blocks, shared, "A")
+    every = _read(blocks, laid, "A")
     given = every.z != numbering.zero
     return Supported(every.row[given], every.z[given], every.partial[given], every.coef[given])
 
 
-def _read(blocks: Sequence[Block], shared: Sequence[Share], part: str) -> Supported:
+def _read(blocks: Sequence[Block], laid: Sequence[Portion], part: str) -> Supported:
     """What rows that hold read of the ports whose speeds they hold: the speed, or with "A" its given acceleration."""
     row, z, partial = ([np.zeros(0, np.int64)] for _ in range(3))
     coef = [np.zeros(0)]
-    for block, share in zip(blocks, shared, strict=True):
+    for block, portion in zip(blocks, laid, strict=True):
         s, count = block.kernel.structure, np.arange(block.count)
         for e, (unknown, speed) in enumerate(s.mass):
             read = f"{PORT}:{key(s.inputs[speed]).name}:{part}" if part else s.inputs[speed]
@@ -88,7 +88,7 @@ def _read(blocks: Sequence[Block], shared: Sequence[Share], part: str) -> Suppor
             j = s.inputs.index(read)
             row.append(block.flow_index[:, s.targets.index(f"own:{unknown}")])
             z.append(block.in_index[:, j])
-            partial.append(share.mass + count * len(s.mass) + e)
+            partial.append(portion.mass + count * len(s.mass) + e)
             coef.append(block.in_coef[:, j])
     return Supported(np.concatenate(row), np.concatenate(z), np.concatenate(partial), np.concatenate(coef))
 
@@ -115,7 +115,7 @@ def light_parts(blocks: Sequence[Block], entries: Entries, numbering: Numbering)
 
 def rows_eliminated(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
     """The rows of these parts."""
-    parts = light_parts(blocks, held_entries(blocks, shares(blocks)[0], numbering), numbering)
+    parts = light_parts(blocks, held_entries(blocks, portions(blocks)[0], numbering), numbering)
     return {row for part in parts for row in part.rows}
 
 

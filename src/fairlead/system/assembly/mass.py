@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.system.arrays.blocks import Block, Memory
-from fairlead.system.arrays.shares import Share
+from fairlead.system.arrays.portions import Portion
 from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.light_holds import (
     Entries,
@@ -26,9 +26,9 @@ from fairlead.system.assembly.program import Pattern
 from fairlead.system.numbering.unknowns import Numbering
 
 
-def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering) -> tuple[Pattern, Memory]:
+def mass(blocks: Sequence[Block], portions: Sequence[Portion], numbering: Numbering) -> tuple[Pattern, Memory]:
     """Pattern of M (CSC), and the arrays with which the callbacks fill it."""
-    entries, n = held_entries(blocks, shares, numbering), numbering.n
+    entries, n = held_entries(blocks, portions, numbering), numbering.n
     parts = light_parts(blocks, entries, numbering)
     kept = _kept(entries, blocks, numbering, {row for part in parts for row in part.rows})
     row, column = entries.row[kept], entries.column[kept]
@@ -46,7 +46,7 @@ def mass(blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering)
         "mass_program": np.ascontiguousarray(
             np.stack([place[: len(row)], entries.partial[kept]], axis=1).astype(np.int64)
         ),
-    } | light_program(parts, entries, supported_entries(blocks, shares, numbering), place_of)
+    } | light_program(parts, entries, supported_entries(blocks, portions, numbering), place_of)
 
 
 def _kept(entries: Entries, blocks: Sequence[Block], numbering: Numbering, of_light: set[int]) -> NDArray[np.bool_]:

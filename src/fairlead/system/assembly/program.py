@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.distinct import distinct
+from fairlead.kernels.layout import ADD_FROM, ADD_PARTIAL, ADD_TO
 
 Integers = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -51,11 +52,11 @@ class Entries:
 
 @dataclass(frozen=True)
 class Program:
-    """The multiply-adds, the length of the work vector, and where the Jacobian lies in it (CSC)."""
+    """The multiply-adds, the length of the work vector, and where the Jacobian lies in it (CSC, then df/dt)."""
 
-    steps: Integers  # (k, 3): work, partial, work
-    coef: Floats
-    fixed: Integers  # (k, 3), those whose factors never change: done once
+    steps: Integers  # (k, 3): work, partial, work; columns as ADD_TO, ADD_PARTIAL, ADD_FROM
+    coef: Floats  # (k,)
+    fixed: Integers  # as steps, those whose factors never change: done once
     fixed_coef: Floats
     length: int
     jacobian_at: int
@@ -63,18 +64,19 @@ class Program:
     rows: Integers
     timed: NDArray[np.bool_]  # equations that depend on time
     moving: Integers  # places of work that `steps` add to
-    forces: tuple[int, int]  # how many of `steps` and of `moving` come before those of the meters
+    forces: tuple[int, int]  # how many of `steps` and of `moving` come before those of quadratures
 
 
 def plan(entries: Entries, n: int, n_signals: int, level_of: Integers,
-         is_fixed: NDArray[np.bool_] | None = None, meters: Sequence[int] = ()) -> Program:  # fmt: skip
+         is_fixed: NDArray[np.bool_] | None = None, quadratures: Sequence[int] = ()) -> Program:  # fmt: skip
     """Plan the elimination.
 
     Rows: 0 .. n_signals-1 are signals and reactions (as they lie in z behind the unknowns), then the n
     equations. `level_of` gives the level of each row. Column n stands for the time. Inputs are given
     by their place in z: below n an unknown, then the signals, and n + n_signals + 1 the time; the rest
     (zero, accelerations) has no derivative. `is_fixed` tells of every partial derivative whether it is
-    one number for good. Equations in `meters`, on which nothing depends, come last, so that they can be left out.
+    one number for good; without it none is. Equations of `quadratures`, on which nothing depends, come
+    last, so that they can be left out.
     """
     row, z, partial = (_joined(column) for column in (entries.row, entries.z, entries.partial))
     coef = np.concatenate([*entries.coef, np.zeros(0)])
@@ -106,13 +108,13 @@ def plan(entries: Entries, n: int, n_signals: int, level_of: Integers,
     depends = np.zeros(n, dtype=bool)
     depends[equation[timed]] = True
     still = _still(every, length + len(keys) + n, is_fixed)
-    metered = np.zeros(length + len(keys) + n, dtype=bool)
-    metered[length : length + len(keys)] = np.isin(keys % max(n, 1), meters)
+    summed = np.zeros(length + len(keys) + n, dtype=bool)
+    summed[length : length + len(keys)] = np.isin(keys % max(n, 1), quadratures)
     order = np.flatnonzero(~still)
-    order = order[np.argsort(metered[every[order, 0]], kind="stable")]
-    moving = distinct(every[order, 0])
-    moving = moving[np.argsort(metered[moving], kind="stable")]
-    forces = (int(np.count_nonzero(~metered[every[order, 0]])), int(np.count_nonzero(~metered[moving])))
+    order = order[np.argsort(summed[every[order, ADD_TO]], kind="stable")]
+    moving = distinct(every[order, ADD_TO])
+    moving = moving[np.argsort(summed[moving], kind="stable")]
+    forces = (int(np.count_nonzero(~summed[every[order, ADD_TO]])), int(np.count_nonzero(~summed[moving])))
     return Program(
         np.ascontiguousarray(every[order]), coefs_of_all[order],
         np.ascontiguousarray(every[still]), coefs_of_all[still], length + len(keys) + n, length,
@@ -125,10 +127,10 @@ def _still(steps: Integers, length: int, is_fixed: NDArray[np.bool_] | None) -> 
     if is_fixed is None:
         return np.zeros(len(steps), dtype=bool)
     moves = np.zeros(length, dtype=bool)
-    still = is_fixed[steps[:, 1]]
+    still = is_fixed[steps[:, ADD_PARTIAL]]
     while True:
-        moves[steps[~still, 0]] = True
-        fewer = still & ~moves[steps[:, 2]]
+        moves[steps[~still, ADD_TO]] = True
+        fewer = still & ~moves[steps[:, ADD_FROM]]
         if (fewer == still).all():
             return still
         still = fewer

@@ -31,13 +31,12 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from fairlead.system.arrays.blocks import Block, Floats, Memory
-from fairlead.system.arrays.shares import Share
+from fairlead.system.arrays.portions import Portion
 from fairlead.system.assembly.program import Entries
 from fairlead.system.numbering.contact_cycles import REST, ends, moved_apart
 from fairlead.system.numbering.unknowns import Numbering
 
 SPEEDS = ("m/s", "rad/s")
-SPLIT_IN_NAME = 1e-9  # weight of a wrong share against a wrong acceleration, when both ask for a switch
 Stops = dict[str, list[int]]  # zone -> guards, by slot, on the slip that lead into a zone that holds
 
 
@@ -62,23 +61,23 @@ def circle_entries(numbering: Numbering, m: int, first: int) -> Entries:
     return made
 
 
-def sharing(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], numbering: Numbering, first: int
+def circle_arrays(
+    flat: FlatModel, blocks: Sequence[Block], portions: Sequence[Portion], numbering: Numbering, first: int
 ) -> Memory:
     """What the callbacks need to know of the circles (the names are explained in layout.py)."""
-    place = {i.path: (b, s, k) for b, s in zip(blocks, shares, strict=True) for k, i in enumerate(b.instances)}
+    place = {i.path: (b, s, k) for b, s in zip(blocks, portions, strict=True) for k, i in enumerate(b.instances)}
     nodes = {index: k for k, index in enumerate(dict.fromkeys(g for p in numbering.circles for g, _ in p.ends))}
     pairs, coefs = [], []
     zones: list[tuple[int, int, int]] = []
     apart = set(moved_apart(numbering.circles, numbering.share))
     for pair in numbering.circles:
-        block, share, i = place[pair.path]
+        block, portion, i = place[pair.path]
         (a, coef_a), (b, coef_b) = pair.ends
         at = [numbering.share.get(index, numbering.zero) for index in (a, b)]
         machine = block.machines[i, 0] if len(block.kernel.structure.zones) > 1 else -1
         pairs.append((numbering.own[pair.path, pair.unknown], nodes[a], nodes[b], *at, machine, len(zones)))
         coefs.append((coef_a, coef_b, pair.sense, 1 / inertia(flat, pair.ends)))
-        zones += _zones(block, share, i, pair.unknown, told=pair.path not in apart)
+        zones += _zones(block, portion, i, pair.unknown, told=pair.path not in apart)
     bodies = [(nodes[index], at) for index, at in numbering.share.items()]
     stiff = [1 / (flat.groups[index].mass or 1.0) for index in numbering.share]
     return {
@@ -97,7 +96,7 @@ def sharing(
 
 
 def inertia(flat: FlatModel, held: Sequence[tuple[int, float]]) -> float:
-    """What resists a force between two groups, by what it moves there: 1/(a^2/m_a + b^2/m_b), at most 1 kg if light."""
+    """What resists a force between two groups, by what it moves there: 1/(a^2/m_a + b^2/m_b); 1 kg if none has mass."""
     free = [(flat.groups[g].mass, coef) for g, coef in held if g != REST and flat.groups[g].free]
     ease = sum(coef**2 / mass for mass, coef in free if mass > 0)
     return 1 / ease if ease > 0 else 1.0
@@ -109,7 +108,7 @@ def _hangs_on(flat: FlatModel, index: int) -> int:
     return FREE if flat.groups[index].free else DRIVEN
 
 
-def _zones(block: Block, share: Share, i: int, unknown: str, *, told: bool) -> list[tuple[int, int, int]]:
+def _zones(block: Block, portion: Portion, i: int, unknown: str, *, told: bool) -> list[tuple[int, int, int]]:
     """By zone: 1 if it holds, the first guard on the slip that leads to one that does (or -1), its direction if `told`.
 
     Between motions that are given and move apart nothing slides in name: there it is not told.
@@ -117,7 +116,7 @@ def _zones(block: Block, share: Share, i: int, unknown: str, *, told: bool) -> l
     s, kind = block.kernel.structure, block.kernel.variant.type.declaration.zones
     holding = s.holds[unknown]
     stop = stops(block, holding)
-    guard = share.guards + i * s.slots
+    guard = portion.guards + i * s.slots
     return [
         (int(zone in holding), guard + stop[zone][0] if stop.get(zone) else -1, told * kind.direction(zone))
         for zone in s.zones
@@ -136,16 +135,16 @@ def stops(block: Block, holding: Sequence[str]) -> Stops:
 
 
 def guard_inertias(
-    flat: FlatModel, blocks: Sequence[Block], shares: Sequence[Share], count: int
+    flat: FlatModel, blocks: Sequence[Block], portions: Sequence[Portion], count: int
 ) -> Floats:
     """Per guard on the slip of a contact that may hold: the inertia that resists its force; 0 for all others."""
     made = np.zeros(count)
-    for block, share in zip(blocks, shares, strict=True):
+    for block, portion in zip(blocks, portions, strict=True):
         s = block.kernel.structure
         for unknown, speeds in s.pairs.items():
             slots = sorted({k for ks in stops(block, s.holds[unknown]).values() for k in ks})
             for i, instance in enumerate(block.instances if slots else ()):
-                made[[share.guards + i * s.slots + k for k in slots]] = inertia(
+                made[[portion.guards + i * s.slots + k for k in slots]] = inertia(
                     flat, ends(flat, instance.path, speeds)
                 )
     return made

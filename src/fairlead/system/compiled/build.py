@@ -13,8 +13,8 @@ from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Floats, Tables
 from fairlead.system.arrays.outputs import signals, stored
+from fairlead.system.arrays.portions import portions, rows
 from fairlead.system.arrays.read_forces import pressing
-from fairlead.system.arrays.shares import rows, shares
 from fairlead.system.arrays.switching import (
     asked_of_blows,
     guards,
@@ -35,7 +35,7 @@ from fairlead.system.assembly.algebraic_nodes import rated_rows
 from fairlead.system.assembly.jacobian import jacobian
 from fairlead.system.assembly.mass import mass
 from fairlead.system.assembly.program import Pattern
-from fairlead.system.assembly.redundancy import guard_inertias, sharing
+from fairlead.system.assembly.redundancy import circle_arrays, guard_inertias
 from fairlead.system.callbacks.table import SPREAD, callbacks
 from fairlead.system.compiled.context import context, working_arrays
 from fairlead.system.compiled.opened import nothing_set
@@ -60,19 +60,19 @@ def build(
 
     A part of a model (not `whole`) has its weights and its samples from the whole, and no outputs of its own.
     """
-    shared, end = shares(blocks)
+    laid, end = portions(blocks)
     rated = rated_rows(flat, numbering, blocks)
-    mass_pattern, memory = mass(blocks, shared, numbering)
-    program = jacobian(flat, blocks, shared, numbering, memory | rated, end.mass)
+    mass_pattern, memory = mass(blocks, laid, numbering)
+    program = jacobian(flat, blocks, laid, numbering, memory | rated, end.mass)
     slots, switches = guards(blocks)
     on_given_motion, loose = stops(flat, blocks)
-    memory |= loose | switches | rows(blocks, shared, end) | samplers(blocks) | {"stored": stored(blocks, shared)}
+    memory |= loose | switches | rows(blocks, laid, end) | samplers(blocks) | {"stored": stored(blocks, laid)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
-    memory |= sharing(flat, blocks, shared, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
+    memory |= circle_arrays(flat, blocks, laid, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
     memory |= nothing_set()
     more = len(rated["rated_terms"]) + len(memory["light_terms"])
     memory["partials"] = np.concatenate([memory["partials"], np.zeros(more)])
-    memory["guard_inertia"] = guard_inertias(flat, blocks, shared, len(slots))
+    memory["guard_inertia"] = guard_inertias(flat, blocks, laid, len(slots))
     memory["context"] = context(blocks, numbering, program, memory, end.mass)
     timed = first_pieces(blocks, memory["zones"], numbering.open_first)
     working = set_apart(memory, blocks, samples=whole)
@@ -111,8 +111,8 @@ def build(
         n_swings=end.swings if memory["counts"][layout.SWINGS].any() else 0,
         guard_names=[name for name, _ in slots],
         machine_zones=machine_zones(blocks, len(machines)),
-        machine_guards=machine_owners(blocks, len(machines)),
-        signals=signals(flat, blocks, shared, numbering) if whole else [],
+        machine_owners=machine_owners(blocks, len(machines)),
+        signals=signals(flat, blocks, laid, numbering) if whole else [],
         memory=memory,
         working=working,
         timed_tables=timed,

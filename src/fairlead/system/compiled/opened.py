@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fairlead.component.assembly import PortRef
 from fairlead.component.declare import Input
-from fairlead.component.instantiate import PortRef
 from fairlead.component.keys import INPUT, RATE, key
 from fairlead.system.arrays.blocks import Memory
 from fairlead.system.arrays.working import offsets, with_more

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.component.piecewise import STRIDE
+from fairlead.component.piecewise import STRIDE, TERMS
 from fairlead.system.compiled.system import Instance
-
-FIRST_TERM = 3
-"""Where in a row of a table its coefficients begin."""
 
 
 def beyond_their_tables(system: Instance) -> list[str]:
@@ -18,6 +15,6 @@ def beyond_their_tables(system: Instance) -> list[str]:
         s = block.kernel.structure
         machines = block.machines[:, s.machines - len(s.tables) :]
         rows = block.table_base + STRIDE * system.zones[machines]
-        beyond = np.isnan(system.memory["tables"][rows + FIRST_TERM]).any(axis=1) if len(s.tables) else []
+        beyond = np.isnan(system.memory["tables"][rows + TERMS]).any(axis=1) if len(s.tables) else []
         found += [block.instances[i].path for i in np.flatnonzero(beyond)]
     return found

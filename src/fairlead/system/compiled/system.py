@@ -2,6 +2,9 @@
 
     System      compiled once: structure, plans, code; frozen, and shared by all runs and threads
     Instance    a System in one run: working memory of its own, weights, what is recorded
+
+Shapes are those of `integrate/problem.py` and `integrate/facts.py`, which say what every one means to an engine:
+[n] by unknown, or by row of f; [ng] by guard; [nz] by machine, which is a position in `zones`.
 """
 
 from __future__ import annotations
@@ -25,10 +28,8 @@ from fairlead.system.arrays.blocks import Block, Memory, Tables
 from fairlead.system.arrays.plain_python import CalledController, Known, called_controllers
 from fairlead.system.arrays.pressing import pressed
 from fairlead.system.arrays.recording import OutputSignal, Recording, choose
-from fairlead.system.arrays.switching import met_slots
 from fairlead.system.arrays.timing import PlacedTable
 from fairlead.system.arrays.working import Bytes, Working, addressed, discrete, offsets
-from fairlead.system.assembly.algebraic_nodes import rows_without_rates
 from fairlead.system.assembly.program import Pattern
 from fairlead.system.numbering.contact_cycles import numbers
 from fairlead.system.numbering.tolerances import Scales, Weights
@@ -68,36 +69,36 @@ class System:
     blocks: list[Block]
     tables: Tables
     callbacks: dict[str, int]
-    initial: Floats
-    pattern: Pattern
-    timed: NDArray[np.bool_]  # rows of f that depend on time
-    mass_pattern: Pattern
-    zones: Integers  # at the start, but for what is given in time
-    differential: NDArray[np.bool_]
-    quadrature: NDArray[np.bool_]
-    stiff: NDArray[np.bool_]  # states inside components, as a bristle: some follow what drives them within a step
+    initial: Floats  # [n]
+    pattern: Pattern  # of df/dy
+    timed: Booleans  # [n]: rows of f that depend on time
+    mass_pattern: Pattern  # of M
+    zones: Integers  # [nz] at the start, but for what is given in time
+    differential: Booleans  # [n]
+    quadrature: Booleans  # [n]
+    stiff: Booleans  # [n]: states inside components, as a bristle: some follow what drives them within a step
     accuracy: float  # of a run that does not say
     start: float  # likewise, s
     scales: Scales | None  # None for a part, whose weights are those of the whole
-    guard_machine: Integers
-    guard_inertia: Floats  # at the start
-    holder: Integers  # per row: the machine whose zone decides whether it holds, or -1
-    takes_impulse: Integers  # per row: 0 it never holds, 1 it takes no impulse but rounding, 2 it takes any
+    guard_machine: Integers  # [ng]
+    guard_inertia: Floats  # [ng] at the start
+    holder: Integers  # [n]: the machine whose zone decides whether a row holds, or -1
+    takes_impulse: Integers  # [n]: 0 it never holds, 1 no impulse but rounding, 2 any, 3 any of a relation of positions
     pressing: Integers  # [k, 2]: rows whose force other laws read, with the sign of its answer to a push
-    met_guard: Integers  # guards of places at which a stop is met
-    limit_guard: Integers  # per guard: 1 if it bounds the force of its own contact while that holds
-    blow_guard: Integers  # per guard: 1 if an impulse asks it with the speeds before
-    latch_guard: Integers  # per guard: 1 if a part that only tells signals remembers that it fired
-    kink_guard: Integers  # per guard: 1 if it leads to the next piece of a continuous table
+    met_guard: Integers  # [k]: guards of places at which a stop is met
+    limit_guard: Integers  # [ng]: 1 if it bounds the force of its own contact while that holds
+    blow_guard: Integers  # [ng]: 1 if an impulse asks it with the speeds before
+    latch_guard: Integers  # [ng]: 1 if a part that only tells signals remembers that it fired
+    kink_guard: Integers  # [ng]: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
-    machine_names: Sequence[str]
-    machine_kind: Integers  # per machine: equal for the same place in instances of one class variant
+    machine_names: Sequence[str]  # [nz]
+    machine_kind: Integers  # [nz]: equal for the same place in instances of one class variant
     on_given_motion: list[str]  # stops of which a side moves as given
     n_swings: int  # what sines are taken of that no error of a step knows
-    guard_names: Sequence[str]
-    machine_zones: list[Sequence[str]]
-    machine_guards: list[Any]  # per machine: the block and the instance it belongs to
-    signals: list[OutputSignal]
+    guard_names: Sequence[str]  # [ng]
+    machine_zones: list[Sequence[str]]  # [nz]: names of the zones of each
+    machine_owners: list[tuple[Block, int]]  # [nz]: the block it belongs to, and the instance in that
+    signals: list[OutputSignal]  # all that can be recorded
     memory: Memory = field(repr=False)  # arrays that code reads; those that a run changes as they are at first
     working: Working = field(repr=False)
     timed_tables: list[PlacedTable] = field(repr=False)  # what is given in time
@@ -126,7 +127,7 @@ class System:
     @property
     def beyond_row(self) -> Integers:
         """Machines of contacts that may close a circle: a switch changes more than their own row."""
-        machines = distinct(self.memory["circle_pairs"][:, 5])
+        machines = distinct(self.memory["circle_pairs"][:, layout.CIRCLE_MACHINE])
         return machines[machines >= 0]
 
     @property
@@ -157,8 +158,8 @@ class System:
         if guard < 0:
             return "time"
         first = int(self.memory["guard_machines"][guard])
-        slot = int(self.memory["guard_place"][guard, 3])
-        block, _ = self.machine_guards[first]
+        slot = int(self.memory["guard_place"][guard, layout.GUARD_SLOT])
+        block, _ = self.machine_owners[first]
         s = block.kernel.structure
         zone = s.zones[before] if machine == first and len(s.zones) > 1 and before < len(s.zones) else None
         named = s.guards[zone] if zone else next((g for g in s.guards.values() if slot < len(g)), [])
@@ -177,28 +178,6 @@ class System:
         """[n]: unknowns that add up what components tell them; nothing flows by them."""
         return np.array([unknown.kind == "sum" for unknown in self.numbering.unknowns], dtype=bool)
 
-    @property
-    def uneven(self) -> list[str]:
-        """Contacts that hold between a node with inertia and one without, by name."""
-        in_mass = np.zeros(self.n, dtype=bool)
-        in_mass[self.mass_pattern.rows] = True
-        return sorted({self.machine_names[m] for m in self.holder[(self.holder >= 0) & ~in_mass]})
-
-    @property
-    def undeclared(self) -> list[str]:
-        """What passes power and says nothing of its energy, by name."""
-        return [i.path for block in self.blocks if block.kernel.structure.silent for i in block.instances]
-
-    @property
-    def rigid_stops(self) -> list[str]:
-        """What is met at a place and then takes any impulse, by name."""
-        return [i.path for block in self.blocks if met_slots(block.kernel.structure) for i in block.instances]
-
-    @property
-    def kept_positions(self) -> list[str]:
-        """What keeps a relation of positions, by name."""
-        return [i.path for block in self.blocks if block.kernel.structure.positions for i in block.instances]
-
     @functools.cached_property
     def moves(self) -> Integers:
         """[k, 3]: position, speed, acceleration (-1: no unknown), where relations of positions are kept; else none.
@@ -216,17 +195,6 @@ class System:
         """[k, 2]: position and speed of nodes without inertia whose balances have their rates beside them."""
         rows = [(self.numbering.position[k], self.numbering.rate[k]) for k in self.numbering.rated]
         return np.array(rows, dtype=np.int64).reshape(-1, 2)
-
-    @property
-    def without_inertia(self) -> list[str]:
-        """Parts that hold such nodes, by name."""
-        rows, found = rows_without_rates(self.blocks, self.numbering), []
-        for block in self.blocks:
-            s = block.kernel.structure
-            for unknown in s.holds:
-                own = block.flow_index[:, s.targets.index(f"own:{unknown}")]
-                found += [i.path for i, row in zip(block.instances, own, strict=True) if row in rows]
-        return found
 
     @functools.cached_property
     def rebound(self) -> Floats:
@@ -262,7 +230,7 @@ class System:
                 swings = block.parameters[:, amplitude] != 0
                 fastest = max(fastest, np.abs(block.parameters[swings, omega]).max(initial=0.0))
         if self._all_given and not self.linear:
-            lengths = [table.polynomial.rows[:, 1] - table.polynomial.rows[:, 0] for table in self.timed_tables]
+            lengths = [table.polynomial.right - table.polynomial.left for table in self.timed_tables]
             longest = max((float(one[one < FAR].max(initial=0.0)) for one in lengths), default=0.0)
             parts, pieces = LOOKED_AT, longest / LOOKED_AT or math.inf
         return min(2 * math.pi / (parts * fastest) if fastest else math.inf, pieces)
@@ -279,16 +247,6 @@ class System:
         """The unknowns in which what is dissipated and what is supplied add up; -1 where there is no ledger."""
         ledger = self.numbering.ledger
         return ledger.get("dissipated", -1), ledger.get("supplied", -1)
-
-    @property
-    def least_left(self) -> float:
-        """The least share of friction that a contact is left with when it lets go; 1 where none falls with a jump."""
-        found = (
-            least_left(block.kernel.structure.shares_left, values)
-            for block in self.blocks if block.kernel.structure.shares_left
-            for values in {id(instance.values): instance.values for instance in block.instances}.values()
-        )  # fmt: skip
-        return min(found, default=1.0)
 
     @functools.cached_property
     def falls(self) -> Integers:

@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.break_away import number_of
 from fairlead.kernels.structure import Structure

@@ -18,9 +18,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.base import Component
 from fairlead.component.declare import Input, Law, Output, Unknown
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.parameters import make
 from fairlead.component.values import variant_of
 from fairlead.errors import Fault

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault, Location, did_you_mean, listing
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.numbering.unknowns import Numbering

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.component.keys import INPUT, PORT, key
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel

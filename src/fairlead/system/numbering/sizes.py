@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.declare import TRANSLATIONAL
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.errors import Fault, shown
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.netlist.limits import MOST_FAULTS

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.declare import SUM, State
-from fairlead.component.instantiate import Instance, PortRef
 from fairlead.component.keys import PORT, key
 from fairlead.component.values import number_given
 from fairlead.flatten.flat_model import FlatModel, Group

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.replies import AnswerError
 from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel, Group

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fairlead.component.instantiate import Instance as Part
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import Instance as Part
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.structure import Structure

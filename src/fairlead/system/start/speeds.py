@@ -16,11 +16,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from fairlead.component.instantiate import PortRef
+from fairlead.component.assembly import PortRef
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.compiled.asking import call, mass_of
+from fairlead.system.compiled.named_parts import kept_positions
 from fairlead.system.compiled.system import Floats, Instance, System
 from fairlead.system.start.places import ratios_at
 
@@ -127,7 +128,7 @@ def _light_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
 
 def _moving_rows(here: Instance, y: Floats) -> dict[int, dict[int, float]]:
     """The same of the rows of relations of positions, whose ratios are those at the positions in y."""
-    if not here.kept_positions:
+    if not kept_positions(here):
         return {}
     ratios = ratios_at(here, y)
     speeds = [here.numbering.rate[index] for index in here.numbering.accelerated]

@@ -1,11 +1,11 @@
-"""Who answers to what in the zones in force: the facts of every kernel (dependence.py) laid over one System.
+"""What depends on what in the zones in force: the facts of every kernel (kernels/dependence.py) laid over one System.
 
 A value is a signal of one instance that something reads, what it adds to one row, or its line of the energy ledger. It
-answers to a place of z if it depends on a sum of inputs that changes when that place does: two ends of a spring that
+depends on a place of z if it does on a sum of inputs that changes when that place does: two ends of a spring that
 follow one place as fast as each other do not change their difference. So do the members of guards.
 
 Nothing is evaluated but the sums of coefficients and, of guards that are groups, the members: one that is negative and
-answers to nothing keeps its guard from firing.
+depends on nothing keeps its guard from firing.
 """
 
 from __future__ import annotations
@@ -17,28 +17,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.component.keys import OWN, key
-from fairlead.component.piecewise import DEGREE, FAR, STRIDE
+from fairlead.component.piecewise import DEGREE, FAR, STRIDE, TERMS
 from fairlead.kernels import layout
 from fairlead.kernels.structure import PIECES, Sum
 from fairlead.system.active.entrained import Entrained
 from fairlead.system.active.rest import Booleans, Floats, Integers
 from fairlead.system.arrays.blocks import Block
-from fairlead.system.arrays.shares import shares
+from fairlead.system.arrays.portions import portions
 from fairlead.system.compiled.asking import ask
 from fairlead.system.compiled.system import Instance
 
 NOBODY = -2
 """In the place of a row: an output, which is a signal or nothing."""
-FIRST_TERM = 3
-"""Where in a row of a table its coefficients begin."""
 
 
 class Laws(NamedTuple):
     """The laws of a System, instance after instance of all blocks, and their values.
 
     value     of the law `law`; it is the signal z[`gives`] or goes to the row w[`row`] (-1: neither)
-    law       `restless` ones vary with nothing that they read, `zoned` ones may answer otherwise in another
-              zone, and some have `unknowns` of their own
+    law       `restless` ones vary with nothing that they read, `zoned` ones may depend on other places in
+              another zone, and some have `unknowns` of their own
     """
 
     law: Integers
@@ -49,7 +47,7 @@ class Laws(NamedTuple):
     unknowns: Booleans
 
 
-class Answers(NamedTuple):
+class Dependences(NamedTuple):
     """Pairs (value, z) and (member, z, slope): what stands there moves the value, or the member so much."""
 
     value: Integers
@@ -105,14 +103,14 @@ def _values(block: Block, dump: int) -> tuple[Integers, Integers, Integers]:
     )
 
 
-def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Answers:
-    """Who answers to what in the zones in force, with what is entrained; `guards` as they are there.
+def dependences(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Dependences:
+    """What depends on what in the zones in force, with what is entrained; `guards` as they are there.
 
-    The bonds of what is entrained answer to nothing: they are what makes it follow.
+    The bonds of what is entrained depend on nothing: they are what makes it follow.
     """
     found = _Found()
     value = law = borders = 0
-    for number, (block, share) in enumerate(zip(system.blocks, shares(system.blocks)[0], strict=True)):
+    for number, (block, portion) in enumerate(zip(system.blocks, portions(system.blocks)[0], strict=True)):
         s = block.kernel.structure
         width = len(s.outputs) + len(s.targets) + len(s.ledger)
         of_groups, rows = _group_members(system, number), _rows(system, block)
@@ -121,12 +119,12 @@ def answers(system: Instance, of: Laws, along: Entrained, guards: Floats) -> Ans
             for j, sums in enumerate(said["values"]):
                 found.value(reach, sums, value + which * width + j)
             for slot, members in enumerate(said["guards"]):
-                guard, size = share.guards + which * s.slots + slot, len(members)
+                guard, size = portion.guards + which * s.slots + slot, len(members)
                 now = [guards[guard]] if size == 1 else list(of_groups[which, k : k + size].T)
                 found.guard(reach, members, (guard, law + which, borders + pieces), now)
                 borders, k = borders + len(which), k + (size if size > 1 else 0)
         value, law = value + block.count * width, law + block.count
-    return found.answers(of, along)
+    return found.dependences(of, along)
 
 
 class _Reach:
@@ -183,13 +181,13 @@ class _Found:
             self._members.append((*of, value, np.full(len(value), slope_of_port)))
             self._count += len(value)
 
-    def answers(self, of: Laws, along: Entrained) -> Answers:
+    def dependences(self, of: Laws, along: Entrained) -> Dependences:
         """All of it, but what the bonds of what is entrained give, and what nobody wants to know."""
         value, value_z = _columns(self._values, np.int64, np.int64)
         told = ((of.gives >= 0) | (of.row != NOBODY))[value] & ~np.isin(of.law[value], along.laws)
         members = Members(*_columns(self._members, *3 * (np.int64,), *2 * (np.float64,)))
         member, member_z, slope = _columns(self._slopes, np.int64, np.int64, np.float64)
-        return Answers(value[told], value_z[told], member, member_z, slope, members)
+        return Dependences(value[told], value_z[told], member, member_z, slope, members)
 
 
 def _columns(rows: Sequence[tuple[NDArray[Any], ...]], *types: Any) -> list[NDArray[Any]]:
@@ -225,7 +223,7 @@ def _rows(system: Instance, block: Block) -> Integers:
 
 def _kinds(tables: Floats, rows: Integers) -> Integers:
     """Of what kind every piece is, as a position in PIECES."""
-    terms = tables[rows[..., None] + FIRST_TERM + np.arange(DEGREE + 1)]
+    terms = tables[rows[..., None] + TERMS + np.arange(DEGREE + 1)]
     level = (terms[..., 1:] == 0).all(axis=-1)
     kinds = [level & (terms[..., 0] == 0), level & (terms[..., 0] == 1), level]
     return np.select(kinds, [0, 1, 2], 3)
