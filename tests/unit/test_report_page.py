@@ -16,9 +16,9 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.report import page
+from fairlead.report.measured import measured
 from fairlead.report.page import packing
 from fairlead.report.page.happened import happened, kinds_of
-from fairlead.report.page.sentence import measured
 from fairlead.report.page.signals import first_panels, signal_data
 from fairlead.report.page.slow import slow_data, slowest
 from fairlead.report.page.verdict import verdict

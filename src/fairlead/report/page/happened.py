@@ -13,7 +13,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from fairlead.report.page.sentence import Sentence, measured
+from fairlead.report.measured import measured
+from fairlead.report.page.sentence import Sentence
 from fairlead.report.page.signals import families, first_panels
 from fairlead.report.page.zones import PIECE, meaning, starts
 from fairlead.results.signal import family
