@@ -42,7 +42,7 @@ function slides(runs) {
 /* Buttons that set the time to an instant of a verdict, which may lie between two rows. */
 function instants(run) {
   const found = run.rucks.flatMap(one => [["first ruck", one.t], ...(one.most ? [["most compressed", one.most.t]] : [])].map(([text, t]) => [run.rucks.length > 1 ? `${one.line}: ${text}` : text, t]));
-  found.push(...run.instants.filter(([, t]) => t > 0 && t < clock.end).slice(0, Math.max(3 - found.length, 0)));
+  if (!found.length) found.push(...run.instants.filter(([, t]) => t > 0 && t < clock.end).slice(0, 3));
   $("instants").replaceChildren(...found.map(([text, t]) => { const one = document.createElement("button"); one.type = "button"; one.textContent = text; one.title = clock.said(t); one.onclick = () => clock.set(t); return one; }));
 }
 function player(runs) {

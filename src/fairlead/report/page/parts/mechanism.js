@@ -19,10 +19,12 @@ class MechanismView {
       for (const name of b.shown) { const {unit, min, max} = this.run.family.get(name); b.values.push({name: name.slice(b.name.length + 1), unit, min, max, v: await first(name)}); }
       b.range = b.x ? this.span(b.x) : 0;
     }
-    const ranges = this.m.boxes.map(b => b.range).filter(r => r > 0).sort((a, b) => a - b);
-    this.reach = ranges[0] || 1;
-    for (const b of this.m.boxes) b.travels = b.range > 12 * this.reach;
-    for (const r of this.m.boxes) if (r.range && !r.travels) this.reach = Math.max(this.reach, r.range);
+    this.groups = this.joined().map(boxes => {
+      const ranges = boxes.map(b => b.range).filter(r => r > 0).sort((a, b) => a - b), group = {boxes, reach: ranges[0] || 0};
+      for (const b of boxes) { b.group = group; b.travels = b.range > 12 * group.reach; }
+      for (const b of boxes) if (!b.travels) group.reach = Math.max(group.reach, b.range);
+      return group;
+    });
     for (const s of this.m.strips) {
       s.v = (await this.run.values(s.family)).first; s.unit = this.run.family.get(s.family).unit;
       const own = s.family.split(".")[0] + ".";
@@ -30,6 +32,13 @@ class MechanismView {
       let most = 0; for (const v of s.v) for (let i = 0; i < v.length; i += 1 + (v.length >> 9)) most = Math.max(most, Math.abs(v[i] - v[0]));
       s.most = most || 1;
     }
+  }
+  /* Boxes that push and pull one another, in groups: each has a scale of its own, so that none stands still beside another. */
+  joined() {
+    const of = this.m.boxes.map((_, k) => k), root = k => { while (of[k] !== k) k = of[k]; return k; }, found = new Map();
+    for (const w of this.m.wires) if (w.domain === "translational") for (const e of w.ends) of[root(e.box)] = root(w.ends[0].box);
+    this.m.boxes.forEach((b, k) => { const r = root(k); if (!found.has(r)) found.set(r, []); found.get(r).push(b); });
+    return [...found.values()];
   }
   /* How much a row says of its part: a state machine says more than the comparators in it. */
   tells(family, row) { return 1e6 * new Set([row.start, ...row.to]).size + row.t.length; }
@@ -42,13 +51,17 @@ class MechanismView {
     const y0 = Math.min(...all.map(b => b.cy - b.h / 2)), y1 = Math.max(...all.map(b => b.cy + b.h / 2));
     const strip = this.m.strips.length ? Math.min(96 * this.m.strips.length, .62 * box.height) : 0;
     const wide = x1 - x0, high = y1 - y0, widest = Math.max(...this.m.boxes.map(b => b.w), 0), gap = 46;
-    const fits = n => Math.min((box.width - 70) / Math.max(wide / n + (n > 1 ? widest : 0), 1), (box.height - strip - 60) / Math.max(n * high + (n - 1) * gap, 1), 2);
-    let rows = 1; for (let n = 2; n <= 8; n++) if (fits(n) > 1.15 * fits(rows)) rows = n; // a long chain is broken into rows
-    const across = fits(rows) * (rows > 1 ? .75 : 1), below = across < READABLE || rows > 1 ? this.downward(box.width) : null, down = below && below.high < Math.max(2.2 * box.width, 900) ? below : null;
+    const usual = box.height, room = Math.max(640, usual); // there is room below
+    let taken = usual;
+    const fits = n => Math.min((box.width - 70) / Math.max(wide / n + (n > 1 ? widest : 0), 1), (taken - strip - 60) / Math.max(n * high + (n - 1) * gap, 1), 2);
+    let rows = 1; const broken = () => { rows = 1; for (let n = 2; n <= 8; n++) if (fits(n) > 1.15 * fits(rows)) rows = n; }; // a long chain is broken into rows
+    broken(); const first = fits(rows); if (first < READABLE) { taken = room; broken(); if (fits(rows) < 1.15 * first) { taken = usual; broken(); } }
+    const row = x => Math.min(rows - 1, Math.floor((x - x0) * rows / (wide || 1))), crossing = this.m.wires.flatMap(w => w.ends.filter(e => row(this.m.boxes[e.box].cx) !== row(w.cx))).length;
+    const across = fits(rows) * (crossing > 2 * (rows - 1) ? .75 : 1), below = across < READABLE || rows > 1 ? this.downward(box.width) : null, down = below && below.high < (box.width < 800 ? Math.max(2.2 * box.width, 900) : .7 * box.width) ? below : null;
     const best = Math.max(across, down ? down.zoom : 0);
     if (best < SMALLEST && this.m.boxes.length > 6) { this.tiled(box.width); this.high(this.tiles.high + strip); return; }
     if (down && down.zoom > across) { this.down = down; this.high(down.high + strip); this.zoom = down.zoom; this.at = down.at; this.stripTop = this.height - strip; this.room(); return; }
-    this.high(0);
+    this.high(taken > usual ? taken : 0); box = {width: this.width, height: this.height};
     const z = this.zoom = fits(rows), band = wide / rows, over = rows > 1 ? widest : 0;
     const ox = (box.width - z * (band + over)) / 2 + z * over / 2, oy = (box.height - strip - z * (rows * high + (rows - 1) * gap)) / 2;
     this.at = (x, y) => { const k = Math.min(rows - 1, Math.max(0, Math.floor((x - x0) / (band || 1)))); return [ox + z * (x - x0 - k * band), oy + z * (y - y0 + k * (high + gap))]; };
@@ -105,7 +118,7 @@ class MechanismView {
   value(v, t) { const [i, j, f] = this.run.between(t); return v[i] + f * (v[j] - v[i]); }
   /* How far each wire and each box is moved in the picture [px]: what is joined moves together. */
   moves(t) {
-    const scale = 34 / this.reach, moved = this.m.boxes.map(b => b.xs && !b.travels ? scale * (this.value(b.xs, t) - b.xs[0]) : b.fixed && !b.xs ? 0 : null);
+    const moved = this.m.boxes.map(b => b.xs && !b.travels ? 34 / (b.group.reach || 1) * (this.value(b.xs, t) - b.xs[0]) : b.fixed && !b.xs ? 0 : null);
     const wires = this.m.wires.map(w => { const known = w.ends.map(e => this.m.boxes[e.box]).map((b, k) => moved[w.ends[k].box]).filter((d, k) => d !== null && this.m.boxes[w.ends[k].box] && !this.m.boxes[w.ends[k].box].travels); return known.length && w.domain === "translational" ? known.reduce((a, b) => Math.abs(a) > Math.abs(b) ? a : b) : null; });
     this.m.boxes.forEach((b, k) => { if (moved[k] === null) {
       const own = this.m.wires.map((w, n) => [w, wires[n]]).filter(([w, d]) => d !== null && w.ends.some(e => e.box === k)).map(([, d]) => d);
@@ -134,7 +147,7 @@ class MechanismView {
     ctx.fillStyle = b.fixed ? css("rule") : css("paper"); ctx.strokeStyle = zone === null ? css("device") : zoneColour(this.run, zone); ctx.lineWidth = zone === null ? 1.5 : 4;
     ctx.beginPath(); ctx.roundRect(x - w / 2, y - h / 2, w, h, 5); ctx.fill(); ctx.stroke();
     if (b.travels) { // a belt: ticks that run
-      const d = this.value(b.xs, t) * 60 / this.reach / 8, step = 12; ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath();
+      const d = this.value(b.xs, t) * 60 / (b.group.reach || 1) / 8, step = 12; ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath();
       for (let q = ((d % step) + step) % step; q < w; q += step) { ctx.moveTo(x - w / 2 + q, y + h / 2 + 2); ctx.lineTo(x - w / 2 + q - 4, y + h / 2 + 9); } ctx.stroke();
     }
     if (b.angles) { const a = this.value(b.angles, t), r = Math.min(h / 2 - 3, 15); ctx.lineWidth = 2; ctx.strokeStyle = css("accent"); ctx.beginPath(); ctx.arc(x - w / 2 + r + 4, y, r, 0, 7);
@@ -173,6 +186,8 @@ class MechanismView {
     return [...words].map(z => [zoneColour(this.run, z), this.run.zones.words[z].name]);
   }
   scale() { if (this.tiles) return `The ${this.m.boxes.length} parts are too many to draw as they are wired: here is a tile for each part that ${this.only ? "changes zone" : "has a zone or a value"}; its mark goes from the lowest to the highest value. The wiring stands under Scene.${this.left()}`;
-    return this.m.boxes.some(b => b.range) ? `Boxes move with their recorded positions, ${shown(this.reach, "m")} drawn as 34 px${this.m.boxes.some(b => b.travels) ? "; running ticks are what travels far" : ""}.${this.left()}` : "No position of a part was recorded, so boxes stand still; values and zones move with time." + this.left(); }
+    const moving = this.groups.filter(g => g.reach > 0).sort((a, b) => b.reach - a.reach), first = g => g.boxes.find(b => b.range && !b.travels).name;
+    const said = moving.length > 1 ? `${moving.slice(0, 3).map(g => `${shown(g.reach, "m")} of ${first(g)}`).join(", ")}${moving.length > 3 ? " and more" : ""} (each with what is joined to it)` : moving.length ? shown(moving[0].reach, "m") : "";
+    return said ? `Boxes move with their recorded positions, ${said} drawn as 34 px${this.m.boxes.some(b => b.travels) ? "; running ticks are what travels far" : ""}.${this.left()}` : "No position of a part was recorded, so boxes stand still; values and zones move with time." + this.left(); }
   left() { return this.m.left_out ? ` ${this.m.left_out} more parts are not drawn.` : ""; }
 }
