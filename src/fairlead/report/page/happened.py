@@ -44,7 +44,8 @@ class Span(NamedTuple):
 
 def happened(result: Result) -> Iterator[Sentence]:
     """One line of the verdict with a point for each kind of part that changed zone, and one for extremes."""
-    points = [*(told for _, told, _ in _kinds(result)), *_extremes(result)]
+    roles = roles_of(result)
+    points = [*((f"{name}{roles.get(name, '')}", text) for _, (name, text), _ in _kinds(result)), *_extremes(result)]
     if points:
         nothing = "" if result.events else "No part changed its zone."
         yield Sentence("What happened", "plain", nothing, points)
@@ -63,6 +64,20 @@ def kinds_of(names: Sequence[str]) -> dict[str, str]:
         alike[re.sub(r"\d+", "*", kind)].add(kind)
     return {name: star if len(alike[star := re.sub(r"\d+", "*", kind)]) >= ALIKE else kind
             for name, kind in own.items()}  # fmt: skip
+
+
+def roles_of(result: Result) -> dict[str, str]:
+    """What the kinds of part of a line are, for those who do not know their names."""
+    found = {}
+    for record in result.run.get("routes") or ():
+        line, layers = record["line"], record["layers"]
+        if len(layers) > 1:
+            found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
+        found[f"{line}.outer[*]"] = " (line on its devices)"
+        bend = " (what presses the contacts; it changes where a node reaches the next part of a bend)"
+        found |= {f"{line}.{which}_load[*]": bend for which in ("inner", "outer")}
+        found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
+    return found
 
 
 def spans(result: Result) -> dict[str, list[Span]]:
