@@ -36,8 +36,8 @@ class Picture(NamedTuple):
 
 
 PICTURES = (
-    Picture("page_light.png", "single_bend", {"mu": 0.6}, 13.0, False, 1400),
-    Picture("page_dark.png", "guidance_route", {}, 20.0, True, 1110),
+    Picture("page_light.png", "single_bend", {"mu": 0.6}, 13.0, False, 1530),
+    Picture("page_dark.png", "guidance_route", {}, 20.0, True, 1370),
 )
 
 

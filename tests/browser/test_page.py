@@ -22,6 +22,8 @@ pytestmark = [
 MOST_MEMORY = 300e6
 MOST_BYTES = 8e6
 """What a page may have, docs/report.md."""
+MODELS = Path(__file__).resolve().parents[2] / "models"
+SINGLE, MACHINES = MODELS / "single_parts", MODELS / "machines"
 EVIL = "<script>document.title='hacked'</script>"
 
 
@@ -36,7 +38,7 @@ def made(folder: Path, name: str, **settings) -> Path:
     model = fairlead.load(name)
     shown_besides(model)
     with contextlib.suppress(fairlead.RunError):
-        return page.write(model.run(out=folder / name, **settings))
+        return page.write(model.run(out=folder / Path(name).stem, **settings))
     raise AssertionError(name)
 
 
@@ -434,7 +436,10 @@ def test_single_parts_keep_a_row_each(browser, tmp_path):
     show(browser, made(tmp_path, "winch_drive", stop=1.0))
     assert settled(browser) is None
     assert browser.find_elements("css selector", "#zone-chart b") == []
-    assert browser.find_element("id", "zone-note").text.startswith("2 rows")
+    rows = browser.execute_script(
+        "return [...views].find(([e]) => e.closest('#zone-chart'))[1].model.left[0].ticker.ticks.length"
+    )
+    assert rows == 2
 
 
 def chained(parts: int) -> str:
@@ -450,12 +455,11 @@ def chained(parts: int) -> str:
     return "\n".join([*lines, "run: {stop: 100 ms}", ""])
 
 
-@pytest.mark.parametrize("width", [400, 1440])
-def test_a_long_chain_of_parts_is_broken_into_rows_that_can_be_read(browser, tmp_path, width):
+def test_a_long_chain_of_parts_is_broken_into_rows_that_can_be_read(browser, tmp_path):
     (tmp_path / "chain.yaml").write_text(chained(20), encoding="utf-8")
     model = fairlead.load(tmp_path / "chain.yaml")
     shown_besides(model)
-    show(browser, page.write(model.run(out=tmp_path / "run")), width)
+    show(browser, page.write(model.run(out=tmp_path / "run")), 1440)
     larger, apart, inside = browser.execute_script(
         "const v = fairlead.page.view, all = v.m.boxes, at = all.map(b => v.at(b.cx, b.cy)), z = v.zoom;"
         "const near = (i, j, axis, size) =>"
@@ -468,6 +472,85 @@ def test_a_long_chain_of_parts_is_broken_into_rows_that_can_be_read(browser, tmp
     assert apart
     assert inside
     assert complaints(browser) == []
+
+
+def fan(parts: int) -> str:
+    """A netlist of so many blocks with long names, each on a pad of its own, on one shaking table."""
+    lines = ["schema: 1", "name: fan", "components:", "  wall: {type: Ground}",
+             "  table: {type: MotionSource, velocity: {sine: {amplitude: 0.3 m/s, frequency: 3 Hz}}}"]  # fmt: skip
+    joined = ["connections:"]
+    for k in range(parts):
+        lines += [f"  block_with_a_rather_long_name_{k}: {{type: Mass, mass: 1 kg}}",
+                  f"  spring_{k}: {{type: Spring, stiffness: 300 N/m}}",
+                  f"  clamped_pad_with_a_long_name_{k}: {{type: Contact, normal_force: {2 + k} N, "
+                  "curve: {curve: coulomb, stiction: 0.8, coulomb: 0.5}}"]  # fmt: skip
+        joined += [f"  - [wall.flange, spring_{k}.a]",
+                   f"  - [spring_{k}.b, block_with_a_rather_long_name_{k}.flange, clamped_pad_with_a_long_name_{k}.b]",
+                   f"  - [table.flange, clamped_pad_with_a_long_name_{k}.a]"]  # fmt: skip
+    return "\n".join([*lines, *joined, "run: {stop: 1 s}", "record: {every: 5 ms}", ""])
+
+
+@pytest.mark.parametrize("width", [400, 1440])
+@pytest.mark.parametrize("written", [fan(30), chained(20)])
+def test_parts_that_would_be_too_small_to_read_are_tiles_and_none_is_left_out(browser, tmp_path, written, width):
+    (tmp_path / "many.yaml").write_text(written, encoding="utf-8")
+    model = fairlead.load(tmp_path / "many.yaml")
+    shown_besides(model)
+    result = model.run(out=tmp_path / "run")
+    show(browser, page.write(result), width)
+    tiles, zoom, inside = browser.execute_script(
+        "const v = fairlead.page.view; return [v.tiles && v.tiles.list.map(b => b.name), v.zoom,"
+        " !v.tiles || v.tiles.columns * v.tiles.wide <= v.width && v.tiles.high <= v.height]"
+    )
+    assert inside
+    assert tiles or zoom > 0.5
+    if tiles:
+        assert {event.component.partition(".")[0] for event in result.events} <= set(tiles)
+        assert "too many to draw as they are wired" in browser.find_element("id", "scale").text
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+    assert complaints(browser) == []
+
+
+@pytest.mark.parametrize("width", [400, 1440])
+def test_no_wire_of_a_small_scene_goes_through_a_box_at_any_width(browser, tmp_path, width):
+    show(browser, made(tmp_path, "belt", stop=1.0), width)
+    rows = browser.execute_script(
+        "const v = fairlead.page.view, axis = v.down ? 1 : 0, at = b => v.at(b.cx, b.cy)[axis];"
+        "return v.m.wires.flatMap(w => w.ends.map(e => Math.sign(v.m.boxes[e.box].cx - w.cx)"
+        " === Math.sign(at(v.m.boxes[e.box]) - at(w))))"
+    )
+    assert all(rows)  # what is joined stays on its side: nothing goes back over the picture to another row
+    over = browser.execute_script(
+        "const v = fairlead.page.view, at = v.m.boxes.map(b => v.at(b.cx, b.cy)), z = v.zoom, all = v.m.boxes;"
+        "return all.some((a, i) => all.some((b, j) => j > i && Math.abs(at[i][0] - at[j][0]) < z * (a.w + b.w) / 2"
+        " && Math.abs(at[i][1] - at[j][1]) < z * (a.h + b.h) / 2))"
+    )
+    assert not over
+
+
+def test_a_state_machine_shows_its_state_and_not_a_comparator(browser, tmp_path):
+    show(browser, made(tmp_path, str(SINGLE / "state_machine.yaml")), 1440)
+    browser.execute_script("fairlead.clock.set(4)")
+    assert "filler is filling" in browser.find_element("id", "state").text
+
+
+def test_pressures_stand_on_their_axis_in_megapascals_and_time_axes_above_each_other(browser, tmp_path):
+    show(browser, made(tmp_path, str(MACHINES / "lowering_winch.yaml"), stop=2.0), 1440)
+    assert settled(browser) is None
+    labels, left = browser.execute_script(
+        "const all = [...views].filter(([e]) => e.closest('#panels')).map(([, v]) => v);"
+        "return [all.map(v => v.model.left[0].axis_label), all.map(v => Math.round(v.frame.bbox.left))]"
+    )
+    assert "pressure [MPa]" in labels
+    assert len(set(left)) == 1
+    assert complaints(browser) == []
+
+
+def test_the_menu_of_a_scene_without_maps_names_none(browser, tmp_path):
+    show(browser, made(tmp_path, "belt", stop=1.0), 1440)
+    shown = "return [...document.querySelectorAll('nav a')].filter(a => a.offsetWidth).map(a => a.hash)"
+    hidden = "return [...document.querySelectorAll('main > section')].filter(s => !s.offsetHeight).map(s => '#' + s.id)"
+    assert not {*browser.execute_script(shown)} & {*browser.execute_script(hidden)}
 
 
 def test_a_picture_that_cannot_be_taken_is_told_and_the_others_are_taken(tmp_path, monkeypatch, capsys):

@@ -11,7 +11,7 @@ from fairlead.studies.sweeps.sweep import sweep
 from tests.studies.jobs import ishigami, job, square
 
 pytest.importorskip("pyarrow", reason="pyarrow is not installed; pip install 'fairlead[sweep]'")
-from fairlead.studies.pictures.draw import draw
+from fairlead.studies.pictures.draw import draw, fitting
 from fairlead.studies.pictures.indices import morris_indices, sobol_indices
 from fairlead.studies.pictures.rows import Rows
 from fairlead.studies.pictures.tornado import tornado
@@ -79,3 +79,18 @@ def test_a_sweep_without_a_row_and_an_unknown_figure_are_sentences(tmp_path) -> 
     sweep(job(square), Design(grid={"x": ["1", "2"]}), tmp_path, processes=0)
     with pytest.raises(UsageError, match="There are y"):
         Rows.read(tmp_path).figure("z")
+
+
+def test_the_legend_of_a_picture_stands_beside_its_data(tmp_path) -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    grid = {"x": ["0", "1", "2"], "y": ["0", "10"]}
+    sweep(job(line, "z"), Design(grid=grid), tmp_path, processes=0)
+    rows = Rows.read(tmp_path)
+    for name, make, size in fitting(rows):
+        made = Figure(figsize=size, layout="constrained")
+        make(made, rows, "z")
+        FigureCanvasAgg(made).draw()
+        legends = [*made.legends, *(ax.get_legend() for ax in made.axes if ax.get_legend())]
+        assert not any(one.get_window_extent().overlaps(ax.bbox) for one in legends for ax in made.axes), name

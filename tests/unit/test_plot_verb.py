@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -15,11 +16,13 @@ from fairlead.cli import app
 from fairlead.component.parameters import make
 from fairlead.component.registry import known_types
 from fairlead.errors import ModelError, UsageError
+from fairlead.report import page
+from fairlead.report.friction_figure import MOST_DECADES, decades
 from fairlead.report.printed import WHATS, printed
 from fairlead.report.printed.along import profile
 from fairlead.report.printed.ledger import ledger
 from fairlead.report.printed.paper import figure6, prism
-from fairlead.report.printed.zone_chart import MOST_LABELS, row_labels, spans, zone_chart
+from fairlead.report.printed.zone_chart import HUES, MOST_LABELS, OWN, row_labels, spans, zone_chart
 from fairlead.results import Result, RunDirectory, Signal
 
 matplotlib.use("agg")
@@ -202,3 +205,21 @@ def test_a_folder_of_results_is_told_where_a_netlist_is_wanted_and_a_netlist_whe
     for name in ("line", "line.yaml"):
         with pytest.raises(UsageError, match=r"Did you mean results.line\?"):
             Result.open(name)
+
+
+def test_a_zone_of_another_word_has_no_colour_that_means_sticking_or_sliding() -> None:
+    assert not {colour.lower() for colour in OWN} & {colour.lower() for colour in HUES.values()}
+    script = (Path(page.__file__).parent / "parts" / "colours.js").read_text(encoding="utf-8")
+    of_page = re.findall(r"#[0-9a-f]{6}", next(line for line in script.splitlines() if line.startswith("const OWN")))
+    assert [colour.lower() for colour in OWN] == of_page
+
+
+@pytest.mark.parametrize(("low", "high", "linear"), [(-1e-3, 1e-3, 3e-8), (-0.2, 0.2, 3e-7), (-1e-6, 1e-6, 1e-6)])
+def test_labels_of_slip_speeds_are_few_and_the_same_on_both_sides_of_zero(
+    low: float, high: float, linear: float
+) -> None:
+    found = decades(low, high, linear)
+    assert found == [-x for x in reversed(found)]
+    assert 0.0 in found
+    assert len(found) <= 2 * MOST_DECADES + 1
+    assert all(abs(x) > 3 * linear for x in found if x)

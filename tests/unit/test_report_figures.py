@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from fairlead.errors import UsageError
 from fairlead.report import figures, map, panel
@@ -196,3 +198,46 @@ def test_few_zone_changes_are_labelled_and_many_are_counted(result: Result, tmp_
     ax = Figure().subplots()
     panel.draw_panel(ax, Result.open(tmp_path / "many"), SIGNALS[:1])
     assert [text.get_text() for text in ax.texts] == ["9 zone changes"]
+
+
+def panel_of(folder: Path, signals: tuple[Signal, ...], *values: np.ndarray, changes: int = 0) -> Axes:
+    """The first panel of a figure of these signals over 1 s, laid out as it is written."""
+    run = RunDirectory.create(folder / "run", signals, {"name": "one"})
+    run.append(np.linspace(0, 1, len(values[0])), np.column_stack(values), np.zeros(len(values[0])))
+    for k in range(changes):
+        run.event(k / changes, "pad", "held", "forward", "")
+    run.finish("finished", {})
+    names = tuple(one.name for one in signals)
+    figure = figures.figure_of(Result.open(folder / "run"), figures.Picture("one", names, "one.png"))
+    FigureCanvasAgg(figure).draw()
+    return figure.axes[0]
+
+
+@pytest.mark.parametrize("count", [1, 4, 8])
+def test_a_legend_of_long_names_stays_in_the_figure_and_off_the_count_of_changes(tmp_path: Path, count: int) -> None:
+    signals = tuple(Signal(f"leaf_spring_of_the_block_with_a_long_name_{k}.tension", "N") for k in range(count))
+    ax = panel_of(tmp_path, signals, *np.random.default_rng(0).normal(size=(count, 30)), changes=40)
+    legend = ax.get_legend().get_window_extent()
+    assert ax.figure.bbox.x0 <= legend.x0
+    assert legend.x1 <= ax.figure.bbox.x1
+    (note,) = [one for one in ax.texts if "zone changes" in one.get_text()]
+    assert not legend.overlaps(note.get_window_extent())
+
+
+@pytest.mark.parametrize(
+    ("size", "unit", "label", "top"),
+    [(1.6e7, "Pa", "x [MPa]", 16), (4e-5, "m", "x [\u00b5m]", 40), (2e6, "m^2", "x [m^2]", 2)],
+)  # fmt: skip
+def test_an_axis_of_large_or_small_values_has_a_prefix_with_its_unit(
+    tmp_path: Path, size: float, unit: str, label: str, top: float
+) -> None:
+    ax = panel_of(tmp_path, (Signal("a.x", unit),), np.linspace(0, size, 30))
+    assert ax.get_ylabel() == label
+    shown = [float(one.get_text().replace("\u2212", "-")) for one in ax.get_yticklabels()]
+    assert max(shown) == pytest.approx(top, rel=0.3)
+
+
+def test_a_curve_that_lies_on_another_is_dashed_so_that_both_are_seen(tmp_path: Path) -> None:
+    t = np.linspace(0, 1, 30)
+    ax = panel_of(tmp_path, (Signal("a.x", "m"), Signal("b.x", "m"), Signal("c.x", "m")), t, t, 1 - t)
+    assert [line.get_linestyle() for line in ax.get_lines()[:3]] == ["-", "--", "-"]

@@ -16,7 +16,9 @@ from typer.testing import CliRunner
 import fairlead
 from fairlead.cli import app
 from fairlead.report import page
+from fairlead.report.measured import measured
 from fairlead.report.page import packing
+from fairlead.report.page.happened import happened, kinds_of
 from fairlead.report.page.signals import first_panels, signal_data
 from fairlead.report.page.slow import slow_data, slowest
 from fairlead.report.page.verdict import verdict
@@ -278,3 +280,74 @@ def test_of_a_run_that_did_not_finish_that_comes_first_and_what_was_good_holds_s
     assert told["No ruck so far"] == "plain"
     assert told["Limits kept so far"] == "plain"
     assert "good" not in told.values()
+
+
+def told(folder: Path, zones: list[dict], *changes: tuple[float, str, str, str], end: float = 10.0) -> dict[str, str]:
+    """What happened in a run with these zones at its start and these changes, by part."""
+    run = RunDirectory.create(folder / "run", (Signal("pad.slip", "m/s", ""),), {"name": "told", "zones": zones})
+    run.append(np.array([0.0, end]), np.zeros((2, 1)), np.zeros(2))
+    for t, part, before, after in changes:
+        run.event(t, part, before, after, "")
+    run.finish("finished", {"steps": 40})
+    points = [point for one in happened(Result.open(folder / "run")) for point in one.points]
+    return {word: text.replace("\u00a0", " ") for word, text in points}
+
+
+def of(name: str, zones: list[str], elements: list[int | None] | None = None) -> dict:
+    numbers = elements or [None]
+    return {"family": name, "zones": zones, "elements": numbers, "start": [0] * len(numbers)}
+
+
+def test_the_verdict_tells_how_often_a_contact_slides_with_period_and_share_of_the_time(tmp_path: Path) -> None:
+    sides = [(2.0 * k + 1.0 + part, "pad", *("held", "forward")[:: 1 if part == 0 else -1])
+             for k in range(4) for part in (0, 0.5)]  # fmt: skip
+    said = told(tmp_path, [of("pad", ["held", "forward"])], *sides)
+    assert said["pad"] == ("It sticks at first. It slides 4 times, first from 1 s, then every 2 s; "
+                           "20 % of the time.")  # fmt: skip
+
+
+def test_a_contact_that_turns_round_slides_once(tmp_path: Path) -> None:
+    changes = [(1.0, "held", "forward"), (2.0, "forward", "backward"), (3.0, "backward", "forward"),
+               (4.0, "forward", "backward"), (5.0, "backward", "forward"), (6.0, "forward", "held")]  # fmt: skip
+    said = told(tmp_path, [of("pad", ["held"])], *[(t, "pad", a, b) for t, a, b in changes])
+    assert said["pad"] == "It sticks at first. It slides once, first from 1 s to 6 s; 50 % of the time."
+
+
+def test_a_state_machine_is_told_by_its_states_and_not_by_its_comparators(tmp_path: Path) -> None:
+    said = told(tmp_path, [of("box.step", ["below"]), of("box.machine", ["draining"])],
+                (1.0, "box.step", "below", "above"), (2.0, "box.step", "above", "below"),
+                (3.0, "box.machine", "draining", "filling"), (4.0, "box.machine", "filling", "stopped"))  # fmt: skip
+    assert said["box.machine"] == "Draining at first, filling from 3 s, stopped from 4 s."
+    assert "box.step" not in said
+
+
+def test_of_many_alike_parts_the_verdict_counts_how_many_at_once(tmp_path: Path) -> None:
+    said = told(tmp_path, [of("rope[*]", ["taut", "slack"], [0, 1, 2])],
+                (1.0, "rope[0]", "taut", "slack"), (2.0, "rope[2]", "taut", "slack"),
+                (3.0, "rope[0]", "slack", "taut"))  # fmt: skip
+    assert said["rope[*]"] == "2 of 3 go slack at some time, at most 2 at once (at 2 s); first rope[0] at 1 s."
+
+
+def test_parts_that_differ_by_their_number_alone_are_one_kind() -> None:
+    assert kinds_of(["pad_1", "pad_2", "pad_3", "valve_1", "valve_2"]) == {
+        "pad_1": "pad_*", "pad_2": "pad_*", "pad_3": "pad_*", "valve_1": "valve_1", "valve_2": "valve_2"}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(1.8e7, "Pa", "18 MPa"), (1.77e-4, "rad", "177 µrad"), (0.25, "m", "0.25 m"), (3.2e-8, "m", "32 nm"),
+     (2e6, "m^2", "2.00e6 m^2"), (0.0, "N", "0 N"), (12.0, "1", "12"), (2.5e5, "N*m", "250 kN*m")],
+)  # fmt: skip
+def test_a_value_has_three_digits_and_a_prefix_where_its_unit_takes_one(value: float, unit: str, text: str) -> None:
+    assert measured(value, unit).replace("\u00a0", " ") == text
+
+
+def test_the_page_of_a_scene_without_a_line_has_no_words_about_lines(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS[:1], {"name": "plain"})
+    run.append(np.array([0.0, 1.0]), np.zeros((2, 1)), np.zeros(2))
+    run.finish("finished", {"steps": 3, "energy": {"supplied": 0.0, "dissipated": 0.0, "stored_change": 0.0}})
+    text = text_of(Result.open(tmp_path / "run"))
+    shown = re.sub(r"<(script|style).*?</\1>", "", text, flags=re.DOTALL)
+    assert not re.search(r"\b(rucks?|hose|outboard|inboard|de-registration)\b", shown)
+    assert 'href="#maps"' not in shown
+    assert "No energy passed" in shown

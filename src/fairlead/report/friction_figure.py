@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from fairlead.analysis.characteristic import Characteristic
 
 
+MOST_DECADES = 4
+"""Labels on each side of zero."""
 MOST_KINDS = 8
 """Of contacts in one figure; of more, the title of the last says how many are left out."""
 
@@ -47,12 +49,24 @@ def draw_all(found: Mapping[str, Characteristic], path: Path) -> Path:
     return path
 
 
+def decades(low: float, high: float, linear: float) -> list[float]:
+    """Zero and powers of ten beyond the linear stretch on both sides: of many every second, so that none touch."""
+    first, last = int(np.ceil(np.log10(linear))) + 1, int(np.floor(np.log10(max(-low, high, linear))))
+    powers = range(last, first - 1, -max(1, -(-(last - first + 1) // MOST_DECADES)))
+    found = [sign * 10.0**power for power in powers for sign in (-1, 1)]
+    return sorted([0.0, *(x for x in found if low <= x <= high)])
+
+
 def _panel(ax: Axes, found: Characteristic) -> None:
     """Friction over slip of one contact."""
+    from matplotlib.ticker import FixedLocator, NullLocator
+
     _draw_branches(ax, found)
     least = min((np.abs(v).min() for v, _ in found.branches.values()), default=1e-6)
     # Creep and sliding are decades apart: linear near zero, logarithmic beyond, the same for both signs.
     ax.set_xscale("symlog", linthresh=float(least) * 30)
+    ax.xaxis.set_major_locator(FixedLocator(decades(*ax.get_xlim(), float(least) * 30)))
+    ax.xaxis.set_minor_locator(NullLocator())
     ax.tick_params(axis="x", labelsize=7)
     ax.set_xlabel("slip speed [m/s]")
     ax.set_ylabel("friction [N]")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.patterns import matcher
+from fairlead.report.measured import prefix_of
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -28,6 +29,11 @@ FEW_LINES = 20  # of more elements in one colour scale no eye follows one betwee
 MOST_TICKS, MOST_LABELLED = 1000, 8
 FAR = 1.0  # times the range of the signals; a limit farther away would make them small
 LIMIT = "#B00020"
+DASHES = ("solid", (0, (5, 4)), (0, (1, 3)), (0, (8, 3, 1, 3)))
+CLOSE = 0.008
+"""Of the height of a panel: curves that are nearer to each other cover one another."""
+ROOM, LETTER, HANDLE = 6.6, 0.068, 0.42
+"""Inches: width of a panel, of a letter of its legend, of the line before each entry with the gap behind it."""
 # Okabe and Ito (2008), Color Universal Design: told apart by colour-blind readers as well.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B")
 
@@ -40,21 +46,51 @@ def draw_panel(ax: Axes, result: Result, signals: Sequence[Signal]) -> None:
     single, scaled = _split(signals)
     for number, names in enumerate(scaled.values()):
         _draw_family(ax, result, names, SCALES[number % len(SCALES)])
+    lying = coincident([result[name] for name in single])
     for number, name in enumerate(single):
-        ax.plot(*thinned(*smooth(result, name)), color=COLOURS[number % len(COLOURS)], label=name)
-    if single:
-        # Above the axes: inside, it would sooner or later hide what the reader looks for.
-        ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0.2, handlelength=1.4)
+        dash = DASHES[lying[number] % len(DASHES)]
+        ax.plot(*thinned(*smooth(result, name)), color=COLOURS[number % len(COLOURS)], linestyle=dash, label=name)
     ax.yaxis.get_offset_text().set_horizontalalignment("right")  # 1e6 stands beside the legend, not in it
-    ax.set_ylabel(_label(signals), parse_math=False)
+    factor, prefix = _prefix(result, signals)
+    if factor != 1.0:
+        ax.yaxis.set_major_formatter(lambda value, _: f"{value / factor:.10g}".replace("-", "\u2212"))
+    ax.set_ylabel(_label(signals, prefix), parse_math=False)
     if len(result.t) > 1 and result.t[-1] > result.t[0]:
         ax.set_xlim(result.t[0], result.t[-1])
     words = _draw_limits(ax, result, [signal.name for signal in signals])
     _draw_ticks(ax, np.array([event.t for event in result.events]))
     words += _label_ticks(ax, result)
+    if single:
+        # Above the axes: inside, it would sooner or later hide what the reader looks for.
+        columns, wide = legend_columns(single)
+        lift = 0.06 if words and wide + LETTER * len("; ".join(words)) > ROOM else 0.0
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0 + lift), ncols=columns, borderaxespad=0.2, handlelength=1.8)
     if words:
         ax.text(1.0, 1.01, "; ".join(words), transform=ax.transAxes, ha="right", va="bottom", size=7, color="0.45",
                 parse_math=False)  # fmt: skip
+
+
+def legend_columns(names: Sequence[str]) -> tuple[int, float]:
+    """In how many columns a legend above a panel has room, and how wide it is then [in]."""
+    entry = max(map(len, names)) * LETTER + HANDLE
+    columns = max(1, min(4, len(names), int(ROOM / entry)))
+    return columns, columns * entry
+
+
+def coincident(curves: Sequence[NDArray[np.float64]]) -> list[int]:
+    """By curve, on how many earlier ones it lies for most of its length."""
+    known = [curve[np.isfinite(curve)] for curve in curves]
+    ends = [(one.min(), one.max()) for one in known if len(one)]
+    near = CLOSE * (max(high for _, high in ends) - min(low for low, _ in ends)) if ends else 0.0
+    return [sum(bool(np.mean(np.abs(one - other) <= near) > 0.5) for other in curves[:k])
+            for k, one in enumerate(curves)]  # fmt: skip
+
+
+def _prefix(result: Result, signals: Sequence[Signal]) -> tuple[float, str]:
+    """The factor and the prefix with which the unit of a panel has numbers that can be read: 1e6, "M"."""
+    found = [result.extremes(signal.name) for signal in signals]
+    size = max((abs(v) for one in found for v in (one.lowest, one.highest) if np.isfinite(v)), default=0.0)
+    return prefix_of(size, signals[0].unit)
 
 
 def smooth(result: Result, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -115,11 +151,11 @@ def _family_label(names: list[str]) -> str:
     return families.pop() if len(families) == 1 else f"{len(names)} signals, in order"
 
 
-def _label(signals: Sequence[Signal]) -> str:
+def _label(signals: Sequence[Signal], prefix: str = "") -> str:
     quantities = {signal.name.rpartition(".")[2].partition("[")[0] for signal in signals}
     words = quantities.pop().replace("_", " ") if len(quantities) == 1 else ""
     unit = signals[0].unit
-    return f"{words} [{unit}]".strip() if unit not in ("", "1") else words
+    return f"{words} [{prefix}{unit}]".strip() if unit not in ("", "1") else words
 
 
 def _draw_limits(ax: Axes, result: Result, names: Sequence[str]) -> list[str]:

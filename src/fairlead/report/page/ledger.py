@@ -11,10 +11,10 @@ MOST_LOST = 8
 
 
 def ledger_rows(result: Result) -> list[dict[str, Any]]:
-    """Rows of entry, energy [J] and the share of the largest; empty of a run that kept no ledger."""
+    """Rows of entry, energy [J] and the share of the largest; empty where no ledger was kept or no energy passed."""
     energy = result.run.get("energy") or {}
     supplied, gone, stored = (energy.get(key) for key in ("supplied", "dissipated", "stored_change"))
-    if supplied is None or gone is None or stored is None:
+    if supplied is None or gone is None or stored is None or not any((supplied, gone, stored)):
         return []
     lost = sorted((result.run.get("lost") or {}).items(), key=lambda item: -abs(item[1]))
     taken = sum(value for _, value in lost)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 MOST_SHOWN = 3
 """Values beside a box."""
-MOST_BOXES = 120
+MOST_BOXES = 240
 
 
 def picture(scene: Mapping[str, Any], name: str) -> Picture:
@@ -64,7 +64,8 @@ def mechanism_data(result: Result) -> dict[str, Any] | None:
          **_at(places["wire", k])}
         for k, wire in enumerate(drawn.wires)
     ]  # fmt: skip
-    return {"boxes": boxes, "wires": wires, "strips": _strips(known)}
+    left = len(scene["components"]) - len(boxes)
+    return {"boxes": boxes, "wires": wires, "strips": _strips(known), "left_out": left}
 
 
 def _at(found: Any) -> dict[str, float]:

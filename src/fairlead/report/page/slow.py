@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from fairlead.report.page.happened import kinds_of, roles_of
 from fairlead.report.page.zones import meaning
 from fairlead.results.signal import family
 
@@ -34,7 +35,7 @@ def slow_data(result: Result) -> dict[str, Any]:
     total = counts.total()
     return {
         "sentence": _sentence(run, counts, kinds, zones), "parts": _rows(_shown(counts, zones), total),
-        "kinds": _rows(kinds, total, _roles(result)),
+        "kinds": _rows(kinds, total, roles_of(result)), "alike": kinds == counts,
         "profile": str(run.get("profile") or ""), "total": total,
         "times": [*((word, run[key]) for key, word in TIMES.items() if run.get(key) is not None), *_rest(run)],
     }  # fmt: skip
@@ -71,7 +72,7 @@ def slowest(result: Result) -> str:
     total = counts.total()
     if not total:
         return ""
-    roles = _roles(result)
+    roles = roles_of(result)
     (first, n), *others = kinds.most_common(2)
     changes = f"{total} change{'s' * (total > 1)}"
     taken = result.run.get("steps") or 0
@@ -133,21 +134,8 @@ def _counted(result: Result) -> tuple[Counter[str], Counter[str], dict[str, set[
     for event in result.events:
         zones[event.component] |= {event.zone_from, event.zone_to}
     counts = Counter(event.component for event in result.events)
-    return counts, Counter(family(event.component)[0] for event in result.events), zones
-
-
-def _roles(result: Result) -> dict[str, str]:
-    """What the kinds of part of a line are, for those who do not know their names."""
-    found = {}
-    for record in result.run.get("routes") or ():
-        line, layers = record["line"], record["layers"]
-        if len(layers) > 1:
-            found[f"{line}.inner[*]"] = f" ({layers[1]} on {layers[0]})"
-        found[f"{line}.outer[*]"] = " (line on its devices)"
-        bend = " (what presses the contacts; it changes where a node reaches the next part of a bend)"
-        found |= {f"{line}.{which}_load[*]": bend for which in ("inner", "outer")}
-        found |= {f"{line}.{layer}[*]": f" (elements of the {layer})" for layer in layers}
-    return found
+    kind = kinds_of(list(counts))
+    return counts, Counter(kind[event.component] for event in result.events), zones
 
 
 def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zones: Mapping[str, set[str]]) -> str:
@@ -158,7 +146,9 @@ def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zo
     (who, n), (kind, m), total = counts.most_common(1)[0], kinds.most_common(1)[0], counts.total()
     contact, share = _busiest_contact(counts, zones), f"{_percent(m, total)} of all"
     more = f" Of contacts, {contact} changes most ({counts[contact]} times)." if contact not in (None, who) else ""
+    single = "" if who == kind else f", and of single parts in {who} ({_times(n)}, {_percent(n, total)})"
+    most = f"only in {kind}" if m == total else f"most often in {kind} ({share})"
     return (
-        f"The run took {cost}. A step ends where a part changes zone, which happened {total} times: most often in "
-        f"{kind} ({share}), and of single parts in {who} ({n} times, {_percent(n, total)}).{more}"
+        f"The run took {cost}. A step ends where a part changes zone, which happened {_times(total)}: "
+        f"{most}{single}.{more}"
     )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from fairlead.analysis.margins.ruck_words import moment
 from fairlead.analysis.record.reported import told
+from fairlead.report.page.happened import happened
 from fairlead.report.page.rucking import rucking
 from fairlead.report.page.sentence import Sentence, ended
 from fairlead.report.page.slow import slowest
@@ -24,10 +25,10 @@ def verdict(result: Result) -> list[Sentence]:
     run = result.run
     found, end = [*rucking(result), *_limits(run)], list(_finished(run))
     if run["status"] == "finished":
-        first = [*found, *end]
+        first = [*found, *happened(result), *end]
     else:
         first = [*end, *(one._replace(about=f"{one.about} so far", mood="plain") if one.mood == "good" else one
-                         for one in found)]  # fmt: skip
+                         for one in found), *happened(result)]  # fmt: skip
     return [*first, *_slow(result), *trust(run), *_remarks(run)]
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fairlead.errors import UsageError
+from fairlead.report.page.happened import instants
 from fairlead.report.page.ledger import ledger_rows
 from fairlead.report.page.line import line_data
 from fairlead.report.page.mechanism import mechanism_data, wiring
@@ -109,7 +110,9 @@ def _run(result: Result, label: str) -> dict[str, Any]:
     return {
         "label": label, "name": str(result.run.get("name") or result.folder.name), "status": result.status,
         "description": str(result.run.get("description") or ""), "verdict": verdict(result),
-        "ledger": ledger_rows(result), "slow": slow_data(result), "scene": scene_data(result),
+        "ledger": ledger_rows(result),
+        "balanced": (result.run.get("energy") or {}).get("supplied") is not None,
+        "slow": slow_data(result), "scene": scene_data(result),
         "wiring": wiring(result), "settings": settings_rows(result.run), "worst": worst_rows(result),
         "lines": line_data(result), "empty": not len(result.t),
     }  # fmt: skip
@@ -121,5 +124,5 @@ def _data(result: Result, label: str, share: float) -> dict[str, Any]:
         "label": label, **signal_data(result, share), "panels": first_panels(result), "zones": zone_data(result),
         "lines": line_data(result), "mechanism": mechanism_data(result),
         "limits": [{key: one[key] for key in ("signal", "bound", "text")} for one in result.run.get("limits") or ()],
-        "rucks": [one for one in result.run.get("ruck") or () if one.get("rucks")],
+        "instants": instants(result), "rucks": [one for one in result.run.get("ruck") or () if one.get("rucks")],
     }  # fmt: skip

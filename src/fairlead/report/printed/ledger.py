@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from fairlead.errors import UsageError
 from fairlead.report.figures import WIDTH
+from fairlead.report.measured import measured
 from fairlead.report.page.ledger import ledger_rows
 
 if TYPE_CHECKING:
@@ -22,12 +23,13 @@ def ledger(result: Result) -> Figure:
 
     rows = ledger_rows(result)
     if not rows:
-        raise UsageError(f"{result.run.get('name', 'The run')} kept no energy ledger, so there is none to draw.")
+        name = result.run.get("name", "The run")
+        raise UsageError(f"{name} has no energy ledger to draw: none was kept, or no energy passed.")
     figure: Figure = Figure(figsize=(WIDTH, 0.8 + 0.34 * len(rows)), layout="constrained")
     ax = figure.subplots()
     entries = [row["entry"] for row in rows]
     bars = ax.barh(entries, [row["energy"] for row in rows], color=[HUES[row["kind"]] for row in rows])
-    ax.bar_label(bars, [f"{row['energy']:.4g} J" for row in rows], padding=3, fontsize=8)
+    ax.bar_label(bars, [measured(row["energy"], "J") for row in rows], padding=3, fontsize=8)
     ax.invert_yaxis()
     ax.margins(x=0.15)
     ax.grid(visible=False, axis="y")

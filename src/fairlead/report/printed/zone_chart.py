@@ -9,7 +9,6 @@ from fairlead.errors import UsageError
 from fairlead.patterns import picked
 from fairlead.report.figures import WIDTH
 from fairlead.report.page.zones import PIECE, meaning, starts
-from fairlead.report.panel import COLOURS
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -20,8 +19,10 @@ if TYPE_CHECKING:
 MOST_ROWS, MOST_LABELS = 400, 48
 EDGE = "#8a94a3"
 HUES = {"stuck": "#0072B2", "forward": "#E69F00", "backward": "#CC79A7", "between": "#7B68C8", "off": "#E4E7EB",
-        "slack": "#56B4E9", "ruck": "#D3261A", "sound": "#C3CCD6"}  # fmt: skip
+        "slack": "#56B4E9", "ruck": "#D3261A", "sound": "#93AD99"}  # fmt: skip
 """Colours by what a zone means, those of the page."""
+OWN = ("#D55E00", "#DDCC77", "#8A8A2A", "#B07AA1", "#9C755F", "#76B7B2", "#009E73", "#4E79A7")
+"""Of zones with words of their own, also those of the page: none is the colour of sticking or sliding."""
 
 Span = tuple[float, float, str]
 
@@ -78,7 +79,7 @@ def zone_chart(result: Result, names: Sequence[str], times: Sequence[float]) -> 
     figure: Figure = Figure(figsize=(WIDTH, min(1.2 + 0.16 * len(rows), 11.0)), layout="constrained")
     ax = figure.subplots()
     words = list(dict.fromkeys(zone for _, each in rows for *_, zone in each))
-    own = {word: COLOURS[k % len(COLOURS)] for k, word in enumerate(w for w in words if not meaning(w))}
+    own = {word: OWN[k % len(OWN)] for k, word in enumerate(w for w in words if not meaning(w))}
     hues = {word: HUES.get(meaning(word)) or own[word] for word in words}
     for k, (_, each) in enumerate(rows):
         ax.broken_barh([(a, b - a) for a, b, _ in each], (k - 0.45, 0.9), color=[hues[zone] for *_, zone in each])

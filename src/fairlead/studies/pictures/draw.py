@@ -33,7 +33,7 @@ def draw(rows: Rows, figure: str, folder: Path) -> list[Path]:
     with matplotlib.rc_context({**STYLE, "backend": "agg"}):
         from matplotlib.figure import Figure
 
-        for name, make, size in _fitting(rows):
+        for name, make, size in fitting(rows):
             made = Figure(figsize=size, layout="constrained")
             make(made, rows, figure)
             folder.mkdir(parents=True, exist_ok=True)
@@ -47,7 +47,7 @@ def folder_name(figure: str) -> str:
     return re.sub(r"[^\w.-]+", "_", figure).strip("_.")[:LONGEST] or "figure"
 
 
-def _fitting(rows: Rows) -> Iterator[tuple[str, Draw, tuple[float, float]]]:
+def fitting(rows: Rows) -> Iterator[tuple[str, Draw, tuple[float, float]]]:
     """Names, functions and sizes [inch] of what can be drawn of a design."""
     grid = [name for name in rows.heading["design"]["grid"] if name in rows.numbers]
     if grid:
@@ -127,7 +127,7 @@ def _failures(made: Figure, rows: Rows, figure: str) -> None:
         height = frame[y][mine].astype(str if y in rows.words else float) if y else np.zeros(int(mine.sum()))
         ax.plot(frame[x][mine], height, "o" if word == FINISHED else "X", markersize=4, linestyle="",
                 color=COLOURS[number % len(COLOURS)], label=f"{word}: {int(mine.sum())}")  # fmt: skip
-    ax.legend(fontsize=8)
+    made.legend(fontsize=8, loc="outside right upper")
     _named(ax, x, y or "")
 
 
@@ -144,7 +144,7 @@ def _indices(made: Figure, rows: Rows, figure: str) -> None:
             ax.plot(ends, [place + shift] * 2, color="0.2", linewidth=1)
     ax.set_yticks(range(len(found)), [index.parameter for index in found])
     ax.invert_yaxis()
-    ax.legend(fontsize=8)
+    made.legend(fontsize=8, loc="outside right upper")
     _named(ax, f"indices of {figure}" + (f" [{rows.heading['units'][figure]}]" if morris else ""), "")
 
 

@@ -1,6 +1,6 @@
 /* Colours that the colour-blind can tell apart: Okabe and Ito (2008) for lines, viridis for values. */
 const LINES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#7b68c8", "#8a8a2a"];
-const OWN = ["#009e73", "#d55e00", "#ddcc77", "#8a8a2a", "#b07aa1", "#4e79a7", "#9c755f", "#76b7b2"];
+const OWN = ["#d55e00", "#ddcc77", "#8a8a2a", "#b07aa1", "#9c755f", "#76b7b2", "#009e73", "#4e79a7"];
 const VIRIDIS = [[68,1,84],[72,40,120],[62,74,137],[49,104,142],[38,130,142],[31,158,137],[53,183,121],[110,206,88],[181,222,43],[253,231,37]];
 
 function ramp(share) {

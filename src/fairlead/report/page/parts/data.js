@@ -93,7 +93,7 @@ function thinned(run, values, k, from, to, most) {
 }
 
 // Large and small values get a prefix where their unit takes one: 18 MPa, 0.177 mrad.
-const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1e-3, "m"], [1e-6, "\u00b5"]];
+const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1e-3, "m"], [1e-6, "\u00b5"], [1e-9, "n"]];
 const shown = (value, unit = "") => {
   if (!Number.isFinite(value)) return "no value";
   const size = Math.abs(value), behind = unit && unit !== "1" ? " " + unit : "", digits = one => `${+one.toPrecision(4)}`;
@@ -117,5 +117,5 @@ const scaled = (values, unit) => {
   const size = Math.max(...values.map(Math.abs), 0), power = size && (size < 1e-3 || size >= 1e5) ? 3 * Math.floor(Math.log10(size) / 3) : 0;
   const prefix = (PREFIXES.find(([scale]) => Math.abs(Math.log10(scale) - power) < .1) || [])[1], takes = /^(Pa|N|W|J|Hz|m|s|V|A|rad)\b(?!\^)/.test(unit) && prefix;
   const text = one => `${+(one / 10 ** power).toPrecision(4)}`;
-  return {texts: values.map(one => [one, text(one)]), unit: !power ? unit : takes ? prefix + unit : `1e${power} ${unit}`};
+  return {texts: values.map(one => [one, text(one)]), power, unit: !power ? unit : takes ? prefix + unit : `1e${power} ${unit}`};
 };

@@ -14,8 +14,11 @@ function whenSeen(element, make) {
   const watch = new IntersectionObserver(found => { if (found.some(one => one.isIntersecting)) once(); }, {rootMargin: "500px"});
   watch.observe(element); once.element = element; page.waiting.push(once);
 }
+/* The menu names no section that this page does not have. */
+function absent() { for (const link of document.querySelectorAll("nav a")) link.hidden = document.querySelector(link.hash).hidden; }
 /* A link to a section makes what stands above it first, because plots that come into sight push the section down. */
 function links() {
+  absent();
   document.querySelector("nav").addEventListener("click", async e => {
     const link = e.target.closest("a"), to = link && document.querySelector(link.hash);
     if (!to) return;
@@ -39,6 +42,7 @@ function slides(runs) {
 /* Buttons that set the time to an instant of a verdict, which may lie between two rows. */
 function instants(run) {
   const found = run.rucks.flatMap(one => [["first ruck", one.t], ...(one.most ? [["most compressed", one.most.t]] : [])].map(([text, t]) => [run.rucks.length > 1 ? `${one.line}: ${text}` : text, t]));
+  if (!found.length) found.push(...run.instants.filter(([, t]) => t > 0 && t < clock.end).slice(0, 3));
   $("instants").replaceChildren(...found.map(([text, t]) => { const one = document.createElement("button"); one.type = "button"; one.textContent = text; one.title = clock.said(t); one.onclick = () => clock.set(t); return one; }));
 }
 function player(runs) {
@@ -50,7 +54,7 @@ function player(runs) {
   const about = end / 16 || 1, rates = [.01, .02, .05, .1, .2, .5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const near = rates.reduce((a, b) => Math.abs(Math.log(b / about)) < Math.abs(Math.log(a / about)) ? b : a), k = rates.indexOf(near);
   const offered = [...new Set([...rates.slice(Math.max(k - 3, 0), k + 4), 1])].sort((a, b) => a - b);
-  options($("speed"), offered.map(r => [r, r === 1 ? "as it is" : `${r} times`]), near); clock.rate = near;
+  options($("speed"), offered.map(r => [r, r === 1 ? "real time" : `${r} \u00d7`]), near); clock.rate = near;
   $("speed").onchange = () => { clock.rate = Number($("speed").value); };
   document.addEventListener("keydown", e => {
     if (/INPUT|SELECT|BUTTON|TEXTAREA|SUMMARY/.test(e.target.tagName) || e.ctrlKey || e.metaKey || e.altKey) return;
@@ -111,7 +115,7 @@ async function begin() {
   page.runs.forEach((r, k) => { r.short = alike ? labels[k][2] : r.label; });
   clock.end = Math.max(...page.runs.map(r => r.end)); span.begin(clock.end);
   const readable = page.runs.filter(r => r.rows > 0);
-  if (!readable.length) { $("state").textContent = "No row of signals was recorded."; for (const id of ["signals", "zones", "maps"]) $(id).hidden = true; $("stage").hidden = true; return; }
+  if (!readable.length) { $("state").textContent = "No row of signals was recorded."; for (const id of ["signals", "zones", "maps"]) $(id).hidden = true; $("stage").hidden = true; absent(); return; }
   player(readable);
   if (readable.length > 1) { $("run-label").hidden = false; options($("which"), readable.map((r, k) => [k, r.label]), 0); $("which").onchange = () => stage(readable[$("which").value], readable); }
   await stage(readable[0], readable);

@@ -41,7 +41,7 @@ class Panel {
   async draw() {
     this.curves = []; this.bands = [];
     const unit = this.unit(), several = this.runs.length > 1;
-    const p = this.p = figure({x_range: span.range(), y_range: new Bokeh.DataRange1d({})}, "time [s]", unit === "1" ? "value" : `[${unit}]`);
+    const p = this.p = figure({x_range: span.range(), y_range: new Bokeh.DataRange1d({})}, "time [s]", "");
     let drawn = 0;
     for (const [r, run] of this.runs.entries()) for (const name of this.families) {
       const family = run.family.get(name);
@@ -56,6 +56,9 @@ class Panel {
         if (!together && !many) drawn++;
       }
     }
+    this.apart();
+    const words = [...new Set(this.families.map(name => name.split(".").pop().replaceAll("_", " ")))];
+    measuredAxis([].concat(p.yaxis)[0], words.length === 1 ? words[0] : "", unit, this.runs.flatMap(run => this.families.flatMap(name => { const f = run.family.get(name); return f ? [f.min, f.max] : []; })).filter(v => v !== null));
     for (const band of this.bands) {
       band.source = new Bokeh.ColumnDataSource({data: {x: [], y1: [], y2: []}});
       p.varea({field: "x"}, {field: "y1"}, {field: "y2"}, {source: band.source, fill_color: band.colour, fill_alpha: .16});
@@ -67,6 +70,16 @@ class Panel {
     this.fill();
     this.view = await put(p, this.plot);
     cursor(this.plot, this.view); hover(this.plot, this.view, (t, y, scale) => this.nearest(t, y, scale)); this.note();
+  }
+  /* A curve that lies on an earlier one is dashed, so that both are seen. */
+  apart() {
+    if (this.runs.length > 1 || this.curves.length > 8) return;
+    const ends = this.curves.map(c => [c.family.min, c.family.max]).filter(([a]) => a !== null), wide = Math.max(...ends.map(e => e[1])) - Math.min(...ends.map(e => e[0])) || 1;
+    this.curves.forEach((c, j) => {
+      const v = c.values.first[c.k], step = Math.max(1, v.length >> 9);
+      const below = this.curves.slice(0, j).filter(o => { const w = o.values.first[o.k]; let near = 0, all = 0; for (let i = 0; i < v.length; i += step, all++) if (Math.abs(v[i] - w[i]) <= .008 * wide) near++; return near > .5 * all; });
+      if (below.length) c.dash = DASHES[below.length % DASHES.length];
+    });
   }
   /* The curve nearest to the pointer, if it is near. */
   nearest(t, y, scale) {

@@ -7,10 +7,24 @@ function styled(p, x, y) {
   Object.assign(p, {background_fill_color: null, border_fill_color: null, sizing_mode: "stretch_width"});
   for (const [axis, label] of [[p.xaxis, x], [p.yaxis, y]]) for (const a of [].concat(axis))
     Object.assign(a, {axis_label: label, axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", minor_tick_line_color: null, major_label_text_font_size: "11px"});
+  p.min_border_left = innerWidth < 600 ? 56 : 74; // plots that stand above each other have one time axis
+  for (const a of [].concat(p.xaxis)) if (x === "time [s]") measuredAxis(a, "time", "s", [0, span.whole_end], 1e-3);
   p.toolbar.logo = null;
   for (const tool of p.toolbar.tools) if (tool.type === "WheelZoomTool") tool.modifiers = {ctrl: true}; // the wheel alone scrolls the page
   p.toolbar.active_drag = p.toolbar.tools.find(tool => tool.type === "BoxZoomTool") || "auto";
   return inked(p);
+}
+/* Numbers along an axis in one power of ten, which stands with the unit: 5, 10, 15 and [MPa]. `least` is what is small. */
+function measuredAxis(axis, what, unit, values, least = 1e-3) {
+  const known = values.filter(Number.isFinite), size = Math.max(...known.map(Math.abs), 0), {power, unit: said} = size >= least && size < 1e5 ? {power: 0, unit} : scaled(known, unit);
+  const plain = said === "1" || said === "" ? "" : said.replace(/ 1$/, "");
+  axis.axis_label = [what, plain && `[${plain}]`].filter(Boolean).join(" ") || "value";
+  const formatter = new Bokeh.BasicTickFormatter(); // a class of its own would need eval, which the page forbids
+  formatter.doFormat = at => {
+    const step = at.length > 1 ? Math.min(...at.slice(1).map((v, k) => Math.abs(v - at[k]))) : Math.abs(at[0] || 1), decimals = Math.min(Math.max(1 - Math.floor(Math.log10(step / 10 ** power)), 0), 20);
+    return at.map(v => { const one = +(v / 10 ** power).toFixed(decimals), text = Math.abs(one) < 1e-6 && one ? String(one) : one.toLocaleString("en", {useGrouping: false, maximumFractionDigits: 12}); return text.replace("-", "\u2212"); });
+  };
+  axis.formatter = formatter;
 }
 /* Frame, axes and grid in the colours that the page has now. */
 function inked(p) {

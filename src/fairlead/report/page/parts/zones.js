@@ -25,7 +25,7 @@ class ZoneChart {
     const maps = as_rows ? [] : families.filter(z => this.many(z)), rest = families.filter(z => !maps.includes(z)), told = [];
     const order = z => Math.max(...z.zones.map(w => RANK[this.means(w)] ?? 3));
     for (const z of [...maps].sort((a, b) => order(b) - order(a))) await new ZoneMap(this, z).show(made);
-    if (rest.length) told.push(await this.rows(rest, made));
+    if (rest.length) told.push(...[await this.rows(rest, made)].filter(Boolean));
     if (maps.length) told.push("In a map a change too short for a pixel is drawn one pixel wide; zoom in to see how short it is");
     const left = this.run.zones.left_out;
     if (left) told.push(`${left} parts that change too often for a page are left out`);
@@ -56,7 +56,7 @@ class ZoneChart {
     const view = await put(p, at);
     cursor(at, view); hover(at, view, (t, y) => { const row = rows[Math.floor(n - y)]; return row && this.tells(row, t); });
     const still = families.flatMap(z => z.rows).length - n;
-    return `${n} rows${still > 0 ? `; ${still} parts that never changed zone are not shown` : ""}`;
+    return still > 0 ? `${still} part${still > 1 ? "s that never changed zone are" : " that never changed zone is"} not shown` : "";
   }
   /* What a row does at time t, and from when to when. */
   tells(row, t) {
