@@ -150,7 +150,7 @@ class Stepping:
     def _tune(self, name: str, value: float | str) -> None:
         """Have the model with another value of a parameter; the run goes over to it as it goes on."""
         assert self._next.tunable is not None, "there are none to set"
-        changed = self._next.tunable.with_value(name, value, begun=self._advanced)
+        changed = self._next.tunable.with_value(name, value, begun=self._advanced, t=self.t)
         self._begun = self._begun and self._advanced  # what was only read begins once more
         if self._begun and not differs(self._next.tunable.model.system, changed.model.system):
             self._next = self._next._replace(tunable=changed)  # a value that stays is no event

@@ -59,6 +59,8 @@ class Model(Protocol):
         """The same with other values."""
 
 
+SAME_PLACE = 1e-9  # m or rad, or of the place; less is rounding of pieces
+BY_SIGNAL = "Drive it by a signal (VelocityActuator, SpeedActuator), or begin another run with the value."
 KEPT = ("zones", "sample_count", "sample_start", "set_due", "set_values")
 """What a run goes on with beside its unknowns, of the arrays that callbacks write to; the others follow from these."""
 
@@ -92,12 +94,14 @@ class Tunable(NamedTuple):
         more = [name for name in self.inside if name not in self.model.netlist.interface.tunable]
         return find_tunable(self.model.netlist, self.model.assembly.entries, more)[0]
 
-    def with_value(self, name: str, value: float | str, *, begun: bool) -> Tunable:
-        """The same with another value. Raises ModelError for one that does not fit, UsageError as `refuse`."""
+    def with_value(self, name: str, value: float | str, *, begun: bool, t: float) -> Tunable:
+        """The same with another value at t. Raises ModelError for one that does not fit, UsageError as `refuse`."""
         inside = self.inside[name]
         with told_of("set", "Model.with_values", {inside: name}):
             changed = self.model.with_values({inside: value})
         refuse(inside, self.model, changed, begun=begun)
+        if begun and (found := moved_at_once(self.model.system, changed.system, t)):
+            raise UsageError(f"set: {inside} {found}")
         return self._replace(model=changed)
 
 
@@ -135,6 +139,17 @@ def refuse(name: str, old: Model, new: Model, *, begun: bool) -> None:
         raise UsageError(f"set: nothing follows {name}: another value stands where it is read. Set that.")
     if begun:
         raise UsageError(f"set: {name} says how a run begins, and changes nothing now. Begin another run with it.")
+
+
+def moved_at_once(one: System, two: System, t: float) -> str:
+    """Why a run cannot go over from one System to the other at t: something that moves as given is elsewhere there."""
+    for a, b in zip(one.flat.instances, two.flat.instances, strict=True):
+        if wave := a.type.answers.moves_as:
+            was, now = float(getattr(a.values, wave)(t)), float(getattr(b.values, wave)(t))
+            if abs(now - was) > SAME_PLACE * max(1.0, abs(was)):
+                place = f"{a.path} from {was:.6g} to {now:.6g} at once"
+                return f"would move {place}: its place follows from what is given since the start. {BY_SIGNAL}"
+    return ""
 
 
 def _written(name: str, model: Model) -> object:

@@ -413,15 +413,45 @@ def test_where_no_law_says_what_follows_a_run_ends_with_the_words_of_model_run(t
     """Fuel burns for 2 s, a hand passes through a wall, a roll runs out: and the end is told again when asked again."""
     text, said, end, _ = WITHOUT_LAW[name]
     (tmp_path / "rocket.py").write_text(ROCKET, encoding="utf-8")
-    (tmp_path / "scene.yaml").write_text(text + "run: {stop: 60 s, max_step: 20 ms}\n", encoding="utf-8")
+    (tmp_path / "scene.yaml").write_text(f"schema: 1{text}run: {{stop: 60 s, max_step: 20 ms}}\n", encoding="utf-8")
     model = fairlead.load(tmp_path / "scene.yaml", libraries=[tmp_path / "rocket.py"])
     whole = model.run(out=None, check=False, engine=engine)
-    assert said in whole.sentence
+    assert said in whole.run["sentence"]
     end = whole.t[-1] if end is None else end
     for step in (0.01, 7.0):
         run = model.start(engine=engine)
+        while run.t + step < end - 0.05:
+            run.advance(run.t + step)
         for _ in range(2):
             with pytest.raises(fairlead.SteppingError, match=said) as told:
-                while run.t < 60.0:
-                    run.advance(run.t + step)
+                run.advance(end + 7.0)
             assert told.value.t == run.t == pytest.approx(end, abs=0.02)
+
+
+@pytest.mark.parametrize("what", ["velocity", "velocity.sine.amplitude", "position.sine.frequency"])
+def test_what_moves_as_given_does_not_jump(tmp_path, what):
+    """Its place is the integral since the start: another speed would move it at once, so that is refused."""
+    given = {
+        "velocity": "velocity: 0.1 m/s",
+        "velocity.sine.amplitude": "velocity: {sine: {amplitude: 0.1 m/s, frequency: 1 Hz}}",
+        "position.sine.frequency": "position: {sine: {amplitude: 0.1 m, frequency: 1 Hz}}",
+    }[what]
+    path = tmp_path / "scene.yaml"
+    path.write_text(f"""
+schema: 1
+components:
+  hand: {{type: MotionSource, {given}}}
+  rope: {{type: Spring, stiffness: 100 N/m}}
+  block: {{type: Mass, mass: 1 kg}}
+connections: [[hand.flange, rope.b], [rope.a, block.flange]]
+run: {{stop: 2 s}}
+""", encoding="utf-8")  # fmt: skip
+    run = fairlead.load(path).start(tunable=[f"hand.{what}", "rope.stiffness"])
+    run.set(f"hand.{what}", 0.05)  # before the start nothing has moved
+    run.advance(0.7)
+    place = run.get("hand.x")
+    with pytest.raises(fairlead.UsageError, match=r"hand.*would move hand from .* at once.*VelocityActuator"):
+        run.set(f"hand.{what}", 0.11)
+    run.set("rope.stiffness", "50 N/m")
+    run.advance(0.7 + 1e-9)
+    assert run.get("hand.x") == pytest.approx(place, abs=1e-8)

@@ -70,7 +70,8 @@ def header(
             f"{law.at}, {which}, {law.law}, {_exact(law.offset)}, {_exact(law.slope)}" for which, law in laws
         )),
         _table("End model_ends[]", (
-            ", ".join([str(one.column), _exact(one.sign), _exact(one.most), _text(one.sentence)]) for one in opened.limits
+            ", ".join([str(one.column), _exact(one.sign), _exact(one.most), _text(one.sentence)])
+            for one in opened.limits
         )),
         _table("Kept model_kept[]", (f"{at}, {length}" for at, length in kept)),
     ]  # fmt: skip

@@ -24,11 +24,12 @@ from fairlead.fmu.refusals import (
     refuse_platform,
     refuse_twice,
 )
-from fairlead.fmu.tuned import Another, Tuned, with_parameters
+from fairlead.fmu.tuned import Another, Tuned, before_the_start, with_parameters
 from fairlead.netlist.interface import Outer
 from fairlead.outer import Variable, find_inputs, find_tunable, gathered, set_already
 from fairlead.outside import LaidOpen, Stepping, laid_open
 from fairlead.patterns import picked
+from fairlead.tuning import moved_at_once
 
 if TYPE_CHECKING:
     from fairlead.model import Model
@@ -91,6 +92,12 @@ def _with_outputs(netlist: Netlist, system: System, outputs: Iterable[str]) -> N
     return dataclasses.replace(netlist, interface=interface)
 
 
+ANOTHER = 1.1
+"""Times its own value: another one of a parameter, which exports take."""
+LOOKS = (0.13, 0.37, 0.61, 0.83)
+"""Shares of a run at which it is asked whether a place follows a parameter; no period of anything."""
+
+
 def made_of(asked: Asked) -> Made:
     """Memory and machine code of a run at its start. Raises UsageError for parts that cannot go along."""
     if not asked.netlist.interface.outputs:
@@ -107,8 +114,19 @@ def made_of(asked: Asked) -> Made:
         return laid(other.memory, other.problem, code.numbers, moved)
 
     found, tuned = with_parameters(asked.tunable, lay, opened)
+    moving = {one.name for one in asked.tunable if _moves_at_once(asked, one)}
+    tuned = [before_the_start(one) if one.name in moving else one for one in tuned]
     image = image_of(opened.memory, opened.problem, found)
     return Made(opened, image, code, variables, tuned, _token(image, code, variables, tuned))
+
+
+def _moves_at_once(asked: Asked, parameter: Variable) -> bool:
+    """True if another value, during the run, would move at once what moves as given."""
+    value = parameter.start or 0.0
+    other = asked.model.with_values({parameter.of: ANOTHER * value})
+    begin, end = asked.settings.start, asked.settings.stop
+    times = (begin + share * (end - begin) for share in LOOKS)
+    return any(moved_at_once(asked.model.system, other.system, t) for t in times)
 
 
 def _alike(model: Model, value: Mapping[str, float]) -> Model:

@@ -17,6 +17,7 @@ What a run goes on with (`kept`) is not worked out of parameters any more: unkno
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -192,6 +193,14 @@ def laws_of(
             "    Leave it as it is."
         )
     return laws, AFTER if late else BEFORE if begins_only else ALWAYS
+
+
+def before_the_start(one: Tuned) -> Tuned:
+    """The same, to be set before the start only. Raises UsageError where it can be set after it only."""
+    if one.when == AFTER:
+        why = "what moves as given would jump"
+        raise UsageError(f"{one.name} cannot be set in the FMU: {why}.\n    Leave it as it is.")
+    return dataclasses.replace(one, when=BEFORE)
 
 
 def _law(at: int, p: Floats, values: Floats) -> Law | None:

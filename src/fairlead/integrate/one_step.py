@@ -27,11 +27,10 @@ from fairlead.integrate.events.pace import (
     not_finite_here,
     over_budget,
     propose,
-    smallest_step,
 )
 from fairlead.integrate.events.position import way_back
 from fairlead.integrate.memory.foreign import compiled, indices, reals
-from fairlead.integrate.point.controller import estimate_error, step_after_rejection, weighted_norm
+from fairlead.integrate.point.controller import estimate_error, smallest_step, step_after_rejection, weighted_norm
 from fairlead.integrate.point.defect import find_defect, find_midpoint_defect
 from fairlead.integrate.point.faded import error_of_faded
 from fairlead.integrate.point.quadratures import judge_quadratures

@@ -34,13 +34,13 @@ from fairlead.integrate.events.given_apart import moves_apart
 from fairlead.integrate.events.growth import watch_growth
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT, goes_no_further
-from fairlead.integrate.events.pace import DOUBT, not_finite_here, smallest_step
+from fairlead.integrate.events.pace import DOUBT, not_finite_here
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling, settle
 from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
-from fairlead.integrate.point.controller import restart, weigh, weighted_norm
+from fairlead.integrate.point.controller import restart, smallest_step, weigh, weighted_norm
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.record.rows import shown_end, write_row
 

@@ -8,11 +8,12 @@ slopes there, the step is too rough at its start, and a much shorter one is trie
 from __future__ import annotations
 
 from fairlead.integrate.codes import BEFORE, GO_ON, SETTLE
-from fairlead.integrate.events.pace import DOUBT, smallest_step
+from fairlead.integrate.events.pace import DOUBT
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.events.violators import all_decrease
 from fairlead.integrate.memory.foreign import compiled
+from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.record.rows import write_row
 
 TOO_LONG, TOO_FAR = 1, 0

@@ -18,7 +18,7 @@ from fairlead.integrate.events.violators import RISE
 from fairlead.integrate.linear.products import add_slopes_times
 from fairlead.integrate.linear.systems import solve
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
-from fairlead.integrate.point.controller import weighted_norm
+from fairlead.integrate.point.controller import smallest_step, weighted_norm
 from fairlead.integrate.point.even_steps import COARSE, rounded
 
 STRIDE = 1.0
@@ -58,6 +58,8 @@ def watch_growth(m):
         on_limit = inertia[i] > 0.0 and abs(g[i]) <= tolerance[i]
         if on_limit and abs(far[i] - g[i]) <= RISE * tolerance[i] and early[i] < 0.0 and late[i] < 0.0:
             run.growth = max(run.growth, late[i] / early[i])
+    if run.growth * smallest_step(run, point) > STRIDE:  # of two rates that are rounding
+        run.growth = 0.0
     if run.growth > 0.0:
         run.t_growth = point.t + LONG_ENOUGH / run.growth
 

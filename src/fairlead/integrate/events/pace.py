@@ -7,7 +7,7 @@ from math import isfinite
 from fairlead.integrate.codes import ARRIVE, GO_ON, MAX_EVENTS, MAX_STEPS, NOT_FINITE, RECORD
 from fairlead.integrate.events.growth import shorten_for_growth
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, reals
-from fairlead.integrate.point.controller import step_after_acceptance
+from fairlead.integrate.point.controller import smallest_step, step_after_acceptance
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.point.quadratures import integrate_quadratures
 
@@ -60,12 +60,6 @@ def arrive_at_instant(run, point, guards):
     copy(reals(point.at_y, point.n), reals(point.at_y_end, point.n))
     copy(reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards))
     run.phase = ARRIVE
-
-
-@compiled
-def smallest_step(run, point):
-    """The step floor here: what was set, but not below what t can resolve."""
-    return max(run.step_floor, 4e-15 * abs(point.t))
 
 
 @compiled

@@ -12,6 +12,7 @@ from fairlead.integrate.linear.systems import VANISHES
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem
 
+
 def replan(memory: Memory, problem: Problem) -> bool:
     """Give the loop fresh pivots for the matrix it could not factorise; False if that matrix is singular."""
     plan = None if memory.number["dense"] else fresh_plan(memory, problem)  # a full matrix has all pivots to choose

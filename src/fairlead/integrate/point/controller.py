@@ -40,6 +40,12 @@ IDLE_ERROR = 1e-3
 
 
 @compiled
+def smallest_step(run, point):
+    """The step floor here: what was set, but not below what t can resolve."""
+    return max(run.step_floor, 4e-15 * abs(point.t))
+
+
+@compiled
 def weigh(point, at_other):
     """weight_i = min(absolute_i + relative_i max(|y_i|, |other_i|), cap_i)."""
     y, other, weight = reals(point.at_y, point.n), reals(at_other, point.n), reals(point.at_weight, point.n)

@@ -14,9 +14,15 @@ from __future__ import annotations
 
 from math import inf
 
-from fairlead.integrate.events.pace import smallest_step
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
-from fairlead.integrate.point.controller import NO_AMPLITUDE, SAFETY, SHRINK_LIMIT, is_straight, weighted_norm
+from fairlead.integrate.point.controller import (
+    NO_AMPLITUDE,
+    SAFETY,
+    SHRINK_LIMIT,
+    is_straight,
+    smallest_step,
+    weighted_norm,
+)
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.point.even_steps import COARSE, root_of_power, rounded
 from fairlead.integrate.stepping.limit_violation import HELD_THROUGH

@@ -20,9 +20,8 @@ from __future__ import annotations
 from math import sqrt
 
 from fairlead.integrate.events.guards import evaluate_guards
-from fairlead.integrate.events.pace import smallest_step
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
-from fairlead.integrate.point.controller import IDLE_ERROR
+from fairlead.integrate.point.controller import IDLE_ERROR, smallest_step
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.stepping.jump_at_end import has_hold_row
 from fairlead.integrate.stepping.limit_violation import BEYOND

@@ -20,9 +20,9 @@ from math import isfinite
 from fairlead.integrate.codes import CYCLES, GO_ON, NOT_SETTLED, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import still_for
 from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_again
-from fairlead.integrate.events.pace import not_finite_here, smallest_step
+from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.memory.foreign import compiled, indices
-from fairlead.integrate.point.controller import step_after_rejection
+from fairlead.integrate.point.controller import smallest_step, step_after_rejection
 from fairlead.integrate.stepping.history import note_rejection
 from fairlead.integrate.stepping.passed_over import find_passed_guard
 from fairlead.integrate.stepping.switch_inside import find_missed_impulse

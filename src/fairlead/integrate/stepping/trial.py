@@ -30,11 +30,12 @@ from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
-from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose, smallest_step
+from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose
 from fairlead.integrate.events.settling import log_changes
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import piece_is_rough, take_piece
+from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
