@@ -74,7 +74,8 @@ def model(folder: pathlib.Path, name: str, text: str = "") -> fairlead.Model:
 class Slave:
     """An instance in FMPy, for both versions of the standard by the same names."""
 
-    def __init__(self, file: pathlib.Path, folder: pathlib.Path, *, start: float = 0.0, **how: Any) -> None:
+    def __init__(self, file: pathlib.Path, folder: pathlib.Path, *, start: float = 0.0, stop: float | None = None,
+                 **how: Any) -> None:  # fmt: skip
         from fmpy import extract, read_model_description
         from fmpy.fmi2 import FMU2Slave
         from fmpy.fmi3 import FMU3Slave
@@ -90,8 +91,8 @@ class Slave:
         )  # fmt: skip
         self.fmu.instantiate(**how)
         if not self.newer:
-            self.fmu.setupExperiment(startTime=start)
-        self.fmu.enterInitializationMode(**({"startTime": start} if self.newer else {}))
+            self.fmu.setupExperiment(startTime=start, stopTime=stop)
+        self.fmu.enterInitializationMode(**({"startTime": start, "stopTime": stop} if self.newer else {}))
         self.t = start
 
     def set(self, name: str, value: float) -> None:

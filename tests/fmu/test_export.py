@@ -234,3 +234,20 @@ def test_the_description_tells_names_units_sizes_and_starts(pushed):
     assert (pull.description, speed.description) == ("Force on the block.", 'Of the <block>, "v" & co.')
     assert told.coSimulation.canGetAndSetFMUstate
     assert told.defaultExperiment.stopTime == "1.0"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_step_beyond_the_stop_time_that_the_master_has_set_is_an_error(tmp_path, version):
+    fmpy()
+    file = once(tmp_path, "ends", version, PUSHED)
+    for stop in (0.3, None):
+        with slave(file, tmp_path / f"at {stop}", stop=stop) as one:
+            one.fmu.exitInitializationMode()
+            for _ in range(3):
+                one.step(0.1)  # which add up to a rounding more than 0.3
+            if stop is None:
+                one.step(7.0)
+            else:
+                with pytest.raises(Exception, match="error"):
+                    one.step(0.1)

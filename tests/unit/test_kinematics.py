@@ -134,3 +134,25 @@ def test_ties_say_the_same_in_any_order():
         assert [r * at + o for r, o in motion.values()] == pytest.approx(expected)
         assert ties.tie(0, 3, -6.0, 1.0)  # d = -6a + 1 follows from the rest
         assert not ties.tie(0, 3, -6.0, 1.1)
+
+
+@pytest.mark.parametrize("length", [28.39353789735268, 26.1, 22.2762, 31.7, 9.999])
+def test_rounding_along_a_rigid_line_is_no_contradiction(scene, length):
+    """Places of its ends are sums of hundreds of links, rounded as what they are apart."""
+    text = f"""
+    components:
+      rope: {{type: Cable, length: {length} m, element: 0.1 m, start: 0 m, tension: 425 N, mass: 0.37 kg/m,
+             stiffness: 410 kN, compression: carried, effects: {{line_stretch: off}}}}
+      route: {{type: Route, stations: [{{type: Bend, start: 1 m, angle: 1 rad, radius: 0.3 m, friction: 0.2}}]}}
+      pull: {{type: ForceSource, force: -425 N}}
+      hold: {{type: ForceSource, force: 367 N}}
+    connections: [[rope.path, route.path], [rope.inboard, pull.flange], [rope.outboard, hold.flange]]
+    run: {{stop: 1 s}}
+    """
+    assert scene(text).system.n > 0
+
+
+def test_start_values_that_differ_are_still_a_contradiction(scene):
+    text = LINKED.replace("back: {type: Mass, mass: 1 kg}", "back: {type: Mass, mass: 1 kg, position: 0.41001 m}")
+    with pytest.raises(ModelError, match="tied to it, starts so that it would be"):
+        scene(text).system  # noqa: B018

@@ -18,6 +18,7 @@ from fairlead.errors import Fault, listing
 from fairlead.flatten.flat_model import Group, Node, Prescribed
 
 ALONG = TRANSLATIONAL.name
+NEXT_TO_NOTHING = 1e-12  # m or m/s, and rad: a difference of two start values that is none
 AGREES = 1e-9  # relative; ratios and offsets of a loop are products of a few rounded numbers
 
 
@@ -201,8 +202,9 @@ def _agreed(starts: list[Any], column: int, rest: float = 0.0) -> tuple[float, l
     given = [s for s in starts if s[column] is not None]
     for instance, ref, *other, ratio, offset in given[1:]:
         one, value = given[0], other[column - 2]
-        if not math.isclose(value, one[column], rel_tol=1e-9, abs_tol=1e-12):
-            shift = offset if column == 2 else 0.0
+        shift = offset if column == 2 else 0.0
+        far = max(abs(one[5] / one[4]), abs(offset / ratio)) if column == 2 else 0.0  # a place is what two are apart
+        if not math.isclose(value, one[column], rel_tol=AGREES, abs_tol=NEXT_TO_NOTHING + AGREES * far):
             variable, unit = instance.type.declaration.ports[ref.port].domain.across[column - 2]
             what = (
                 f"{ref}.{variable} starts at {ratio * value + shift:g} {unit}; {one[1]}, tied to it, starts so that "

@@ -1,6 +1,7 @@
 /* FMI 2.0 for co-simulation, by declarations of our own; the rest is in wrapper.c. */
 #include "wrapper.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,9 +53,9 @@ OFFERED void fmi2FreeInstance(Component c) { instance_free(c); }
 
 OFFERED Status fmi2SetupExperiment(Component c, Boolean has_tolerance, double tolerance, double start, Boolean has_stop,
                                    double stop) {
-    (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
+    (void)has_tolerance, (void)tolerance;
     EXPECT(1u << MADE);
-    return (Status)set_up(c, start);
+    return (Status)set_up(c, start, has_stop ? stop : INFINITY);
 }
 
 OFFERED Status fmi2EnterInitializationMode(Component c) {

@@ -1,6 +1,7 @@
 /* FMI 3.0 for co-simulation, by declarations of our own; the rest is in wrapper.c. */
 #include "wrapper.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -51,9 +52,9 @@ OFFERED void fmi3FreeInstance(Component c) { instance_free(c); }
 
 OFFERED Status fmi3EnterInitializationMode(Component c, bool has_tolerance, double tolerance, double start,
                                            bool has_stop, double stop) {
-    (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
+    (void)has_tolerance, (void)tolerance;
     EXPECT(1u << MADE);
-    enum Said said = set_up(c, start);
+    enum Said said = set_up(c, start, has_stop ? stop : INFINITY);
     if (said == SAID_OK) ((Instance *)c)->stage = INITIALISING;
     return (Status)said;
 }

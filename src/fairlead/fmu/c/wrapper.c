@@ -29,6 +29,7 @@ Instance *instance_new(const char *name, const char *token, Tell tell, void *env
     instance->environment = environment;
     instance->callback = callback;
     instance->logging = logging;
+    instance->last = INFINITY;
     instance->name = strdup(name == NULL ? "" : name);
     if (token == NULL || strcmp(token, MODEL_TOKEN) != 0) {
         say(instance, SAID_ERROR, "The token is not that of %s: its description and its library are not of one export.",
@@ -56,6 +57,7 @@ enum Said instance_reset(Instance *instance) {
     run_reset(instance->run);
     instance->stage = MADE;
     instance->begun_anew = 0;
+    instance->last = INFINITY;
     return SAID_OK;
 }
 
@@ -76,11 +78,12 @@ enum Said not_offered(Instance *instance, const char *function) {
     return say(instance, SAID_ERROR, "%s: this FMU does not offer that; its description says so.", function);
 }
 
-enum Said set_up(Instance *instance, double start) {
+enum Said set_up(Instance *instance, double start, double last) {
     double own = run_time(instance->run);
     if (!(fabs(start - own) <= SAME_TIME * fmax(1.0, fabs(own))))
         return say(instance, SAID_ERROR, "This FMU begins at t = %.9g s, and start is %.9g s. Export it with another "
                    "run.start.", own, start);
+    instance->last = last;
     return SAID_OK;
 }
 
@@ -181,6 +184,9 @@ enum Said do_step(Instance *instance, double now, double step, int *changed) {
     if (!(step >= 0.0) || !isfinite(goal)) return refuse(instance, "DoStep", "the step is no length of time.");
     if (fabs(now - t) > SAME_TIME * fmax(step, fabs(t)))
         return say(instance, SAID_ERROR, "DoStep: the step begins at t = %.17g s, and the instance is at %.17g s.", now, t);
+    if (goal > instance->last + SAME_TIME * fmax(step, fabs(instance->last)))
+        return say(instance, SAID_ERROR, "DoStep: the step ends at t = %.17g s, beyond the stop time %.17g s that was set. "
+                   "Leave it undefined, or end there.", goal, instance->last);
     if (goal < t) goal = t;
     return run_advance(instance->run, goal, instance->early, changed) ? failed(instance) : SAID_OK;
 }

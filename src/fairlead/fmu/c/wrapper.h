@@ -17,6 +17,7 @@ struct Instance {
     int begun_anew; /* something was set while initialising, after the run had begun */
     int with_events; /* event mode is used */
     int early;      /* a zone change ends a step */
+    double last;    /* the stop time that the master has defined, or infinity */
     char *name;
     int logging;
     Tell tell;
@@ -39,7 +40,7 @@ enum Said refuse(Instance *instance, const char *function, const char *why);
 /* A function of the standard that this FMU says it does not have. */
 enum Said not_offered(Instance *instance, const char *function);
 
-enum Said set_up(Instance *instance, double start);
+enum Said set_up(Instance *instance, double start, double last);
 enum Said initialised(Instance *instance, enum Stage next);
 /* Numbers by value reference: 0 is time, then inputs, then outputs, then parameters. */
 enum Said get_reals(Instance *instance, const unsigned references[], size_t n, double values[], size_t room);
