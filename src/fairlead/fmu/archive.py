@@ -28,6 +28,8 @@ def packed(files: Mapping[str, bytes]) -> bytes:
 
 def write(file: pathlib.Path, content: bytes) -> None:
     """Write a file in one go; what stood there stays where that fails. Raises UsageError."""
+    if file.is_dir():
+        raise UsageError(f"{file} is a folder. Name a file with -o, as in -o {file.resolve().name or 'model'}.fmu.")
     temporary = None
     try:
         file.parent.mkdir(parents=True, exist_ok=True)

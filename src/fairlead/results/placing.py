@@ -27,14 +27,22 @@ def place(path: Path, data: bytes | str) -> None:
 
 @contextmanager
 def placing(path: Path) -> Iterator[Path]:
-    """Yield an empty file beside `path`, which takes its place in the end; after an exception nothing is left."""
+    """Yield an empty file beside `path`, which takes its place in the end; after an exception nothing is left.
+
+    An error of the operating system names `path`: that of a full disk, while a file is written, names none.
+    """
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
-    create(part).close()
     try:
-        yield part
-        part.replace(path)
-    except BaseException:
-        part.unlink(missing_ok=True)
+        create(part).close()
+        try:
+            yield part
+            part.replace(path)
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        if error.filename is None or Path(os.fsdecode(error.filename)) == part:
+            error.filename = str(path)
         raise
 
 
