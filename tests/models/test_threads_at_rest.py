@@ -20,8 +20,6 @@ PARTS = {
     "worm": {"type": "Worm", **SCREW, "wheel_radius": "50 mm"},
     "gear": {"type": "LossyGear", "ratio": 0.05, "efficiency": 0.4},
 }
-FEW = [(kind, engine) for kind in PARTS for engine in ENGINES if (kind, engine) != ("steep screw", "ida")]
-"""All but one: `ida` makes no step across the stop of that brake at 1e-6, though the screw does not lock itself."""
 GUIDES = {
     "screw": ("Mass", {"mass": 9.55}, "Contact", {"curve": 0.2, "normal_force": "5160 N"}, "flange", "ForceSource"),
     "worm": ("Inertia", {"moment": 0.02}, "Brake", {"curve": 0.2, "radius": "1 m", "normal_force": "258 N"},
@@ -80,7 +78,8 @@ def check(result, size=1.0, names=str):
 
 
 @pytest.mark.parametrize("accuracy", [1e-4, 1e-6])
-@pytest.mark.parametrize(("kind", "engine"), FEW)
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("kind", PARTS)
 def test_a_load_that_passes_through_zero_moves_nothing(simulate, kind, engine, accuracy):
     check(simulate(scene(kind), **{"run.engine": engine, "run.accuracy": accuracy}))
 
@@ -91,7 +90,7 @@ def test_however_sharp_the_corner_is(simulate, engine, round_off):
     check(simulate(scene("screw", round_off=round_off), **{"run.engine": engine, "run.accuracy": 1e-4}))
 
 
-@pytest.mark.parametrize("size", [1e-4, 1e2])
+@pytest.mark.parametrize("size", [1e-4, 1e4])
 def test_sizes_and_names_do_not_matter(simulate, size):
     def other(name):
         return f"z_{name[::-1]}"
