@@ -79,7 +79,13 @@ class Arguments:
 
     def path(self, name: str, value: object, none: str = "") -> None:
         """A path: a text or a Path; `none` says what None stands for, where it may be None."""
-        if (value is None and none) or (isinstance(value, str | os.PathLike) and os.fspath(value) not in ("", b"")):
+        if value is None and none:
+            return
+        text = os.fsencode(value) if isinstance(value, str | os.PathLike) else b""
+        if b"\0" in text:
+            self._wrong(name, repr(value), "is not a path: it has the character NUL", "Give a text or a pathlib.Path.")
+            return
+        if text:
             return
         self._wrong(name, value, "is not a path", f"Give a text or a pathlib.Path{f', or {none}' if none else ''}.")
 

@@ -35,6 +35,7 @@ def never(*_, **__):
         ({"out": True}, "Model.run: out = True is not a path"),
         ({"out": ""}, "Model.run: out = '' is not a path"),
         ({"out": ["a"]}, "Model.run: out = ['a'] is not a path"),
+        ({"out": "a\0b"}, r"Model.run: out = 'a\x00b' is not a path: it has the character NUL"),
         ({"progress": 3}, "Model.run: progress = 3 is not a function\n    Give a function of the fraction done"),
         ({"progress": lambda share: None}, "Model.run: progress = <lambda> does not take 3 arguments"),
         ({"progress": True}, "Model.run: progress = True is not a function"),
@@ -179,3 +180,9 @@ def test_a_progress_that_takes_anything_is_taken(model):
     assert told
     with pytest.raises(UsageError, match="no line on a route"):
         model.statics()
+
+
+@pytest.mark.parametrize("path", ["a\0b", 3, None])
+def test_what_is_no_path_is_not_opened(path):
+    with pytest.raises(fairlead.UsageError, match="is not a path"):
+        fairlead.Result.open(path)

@@ -99,7 +99,7 @@ class Result:
         Raises UsageError when there is no such directory or no series in it, DamagedResultsError when one of the
         two cannot be read.
         """
-        if not isinstance(path, str | os.PathLike):
+        if not isinstance(path, str | os.PathLike) or b"\0" in os.fsencode(path):
             raise UsageError(f"Result.open: path = {shown(path)} is not a path.\n    {run_file.GIVE}")
         path = Path(path)
         run, status = run_file.load_as_it_is(path)
