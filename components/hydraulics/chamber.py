@@ -20,6 +20,7 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 
+LEAST = 0.01  # share of the dead volume that must be left
 LAG, NOTHING = 1e-6, 1.0  # s; Pa: what rounding has left of the pressure in a void is gone after this time
 EDGE, CRITICAL = 0.62, 1e5  # C_d and p_cr [Pa] of the bore through which a chamber is filled
 
@@ -47,6 +48,11 @@ class PistonChamber(Component, abstract=True):
     level = Output("Pa", "Pressure on the piston.", name="pressure")
     force = Output("N", "Force that pushes the rod out.")
     void = Output("m^3", "Volume without oil.")
+    crushed = Output(
+        "1", "Above zero where less than a hundredth of the dead volume is left.", role="used_up",
+        gone=("has no volume left: its piston went through the end stop by as much as the dead volume is long",
+              "Give it a stiffer stop, or a larger dead volume."),
+    )  # fmt: skip
 
     def start(p):
         """Pressure at the start, where given."""
@@ -63,11 +69,17 @@ class PistonChamber(Component, abstract=True):
         return p.fluid.conductance(EDGE, pi * p.bore**2 / 4)
 
 
+def chamber_volume(p, body, rod):
+    """The volume of a chamber, with its dead volume."""
+    travel = rod.x - body.x
+    return p.dead_volume + p.area * (travel if p.side == "cap" else p.stroke - travel)
+
+
 def chamber_law(p, port, body, rod, level, **own):
     """Law of a chamber at a pressure; `own` gives the rate of it when it is held, and further states."""
     d = 1 if p.side == "cap" else -1
-    travel, speed = rod.x - body.x, d * (rod.v - body.v)
-    volume = p.dead_volume + p.area * (travel if p.side == "cap" else p.stroke - travel)
+    speed = d * (rod.v - body.v)
+    volume = chamber_volume(p, body, rod)
     drop = port.pressure - level
     flow = throttled(p.conductance, drop, CRITICAL)
     push = d * p.area * level
@@ -77,7 +89,8 @@ def chamber_law(p, port, body, rod, level, **own):
         rate = p.fluid.bulk_modulus / volume * (flow - p.area * speed)
         supplied = level**2 / (2 * p.fluid.bulk_modulus) * p.area * speed
     return Law(port=flow, rod=-push, body=push, pressure=level, force=push, oil=rate, supplied=supplied,
-               stored=volume * level**2 / (2 * p.fluid.bulk_modulus), dissipated=lost, **own)  # fmt: skip
+               stored=volume * level**2 / (2 * p.fluid.bulk_modulus), dissipated=lost,
+               crushed=LEAST - volume / p.dead_volume, **own)  # fmt: skip
 
 
 class FullChamber(PistonChamber):
@@ -109,7 +122,8 @@ class Chamber(PistonChamber):
         speed = (1 if p.side == "cap" else -1) * (rod.v - body.v)
         flow = throttled(p.conductance, port.pressure, CRITICAL)
         return Law(port=flow, rod=0, body=0, pressure=0, force=0, oil=-oil / LAG, empty=p.area * speed - flow,
-                   void=empty, dissipated=flow * port.pressure)  # fmt: skip
+                   void=empty, dissipated=flow * port.pressure,
+                   crushed=LEAST - chamber_volume(p, body, rod) / p.dead_volume)  # fmt: skip
 
     @guard("full", to="cavitating", unit="Pa")
     def tears(p, oil):

@@ -114,7 +114,8 @@ class Output:
     PULL is the force of what can only pull in a machine, though not by its law; a run tells where it pushes.
     INTEGRAL is what a controller has gathered; a run tells where it winds up, see `saturates_in`.
     USED_UP is above zero once nothing is left of what a part gives; the run ends there, unless another part listens to
-    the output `of`, which tells what is left. It is above 1 where the law says no more at all, and any run ends.
+    the output `of`, which tells what is left. It is above 1 where the law says no more at all, and any run ends. `gone`
+    is what the sentence says of the part then, in place of "is used up", and a way out.
     `rounded_by` is the parameter over which a corner at zero of this output is rounded off; a run tells where the
     output stays so small that the rounding counts. In a Composite the parameter has the same name.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
@@ -126,6 +127,7 @@ class Output:
     name: str = ""
     rounded_by: str = ""
     of: str = ""
+    gone: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True)
