@@ -7,8 +7,8 @@ components:
   floor: {{type: Ground}}
   lever: {{type: SignalSource, value: {{table: [[0 s, 60e5], [0.5 s, 60e5], [0.6 s, 1e5], [5 s, 1e5]]}}}}
   supply: {{type: PressureActuator, conductance: 2e-10 m^3/s/Pa}}
-  lift: {{type: SingleActingCylinder, bore_diameter: 40 mm, stroke: 0.2 m, dead_volume: 1e-4 m^3, effects: {{cavitation: "{void}"}},
-         stop_stiffness: {stiffness} N/m}}
+  lift: {{type: SingleActingCylinder, bore_diameter: 40 mm, stroke: 0.2 m, dead_volume: 1e-4 m^3,
+         stop_stiffness: {stiffness} N/m, effects: {{cavitation: "{void}"}}}}
   load: {{type: Mass, mass: 300 kg, position: 0, velocity: 0}}
   weight: {{type: ForceSource, force: -2943 N}}
   damper: {{type: Damper, damping: 20 kN*s/m}}

@@ -14,7 +14,7 @@ LINEAR = ("DONE", "SINGULAR", "INACCURATE")
 OF_A_SETTLEMENT = ("NOT_CONSISTENT", "TOO_MANY_PASSES", "NO_ROOM", "RELEASED", "RUBBED", "APART")
 OF_A_STEP = ("CYCLES", "DIVERGES", "JUMPS", "ONCE_MORE", "AFRESH")
 STATUSES = {"SINGULAR_MATRIX" if status.name == "SINGULAR" else status.name: status for status in Status}
-ONLY_PYTHON = {Status.FINISHED, Status.NARROW, Status.WIDEN, Status.MAX_WALL, Status.INTERRUPTED, Status.ENDED}
+ONLY_PYTHON = {Status.FINISHED, Status.NARROW, Status.WIDEN, Status.MAX_WALL, Status.INTERRUPTED}
 """Statuses that the loop of an FMU never returns: it has no end, no parts, and no clock."""
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 

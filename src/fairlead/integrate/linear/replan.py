@@ -6,9 +6,9 @@ import warnings
 
 import numpy as np
 
+from fairlead.integrate.codes import VANISHES
 from fairlead.integrate.linear.condensing import core_entries, lay_out
 from fairlead.integrate.linear.ordering import Plan, inverse, sparse_plan
-from fairlead.integrate.linear.systems import VANISHES
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem
 

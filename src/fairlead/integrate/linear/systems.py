@@ -11,13 +11,10 @@ that the choice of pivots does not depend on units.
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR
+from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR, VANISHES
 from fairlead.integrate.linear.condensed import factorise_core, solve_core
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-VANISHES = 1e-14
-"""Share of the numbers that a pivot is the difference of, below which it is rounding. Not of its column: in a step of
-1e-12 s all that the force of a brake does to the speed of 100 t is 1e-14 m/s, and still it is known by that alone."""
 REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
 """Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
 
