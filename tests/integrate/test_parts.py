@@ -22,6 +22,7 @@ OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
 OF_A_SETTLEMENT = {
     "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness",
     "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest", "without_answer",
+    "no_pivots",
 }  # fmt: skip
 OF_A_STEP = {
     "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip",

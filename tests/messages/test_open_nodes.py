@@ -65,12 +65,20 @@ def test_check_says_what_belongs_at_a_node_that_is_left_open(scene, domain):
 
 @pytest.mark.slow
 def test_a_run_says_which_pressure_is_open_by_the_names_of_the_netlist_and_asks_for_a_volume(scene):
-    """While the counterbalance valve is shut, oil between it and the motor has nowhere to go."""
-    result = scene(LOWERED).run(out=None, check=False)
+    """While the counterbalance valve is shut, oil between it and a motor without leakage has nowhere to go."""
+    result = scene(LOWERED.replace("internal_leakage: 1e-13", "internal_leakage: 0")).run(out=None, check=False)
     said = result.run["sentence"]
     assert "the equations do not determine the pressure at counter.load, motor.a." in said
     assert "Add a Volume there" in said
     assert "mass" not in said
+
+
+@pytest.mark.parametrize("leakage", [1e-13, 1e-16, 1e-20])
+def test_the_least_leakage_determines_it(scene, leakage):
+    """The weight turns the motor as the oil leaks through it:  D w = leakage M/D."""
+    result = scene(LOWERED.replace("internal_leakage: 1e-13", f"internal_leakage: {leakage}")).run(out=None)
+    displacement = 100e-6 / (2 * np.pi)
+    assert result.at("rotor.speed", 0.1) == pytest.approx(-leakage * 98.0 / displacement**2, rel=1e-6)
 
 
 def test_with_volumes_it_runs(scene):

@@ -16,7 +16,7 @@ from fairlead.outside import LaidOpen
 
 FIELDS = (
     "t", "t_next", "start", "stop", "phase", "rows", "events", "at_y", "context", "call_outputs", "worst", "culprit",
-    "dense", "midway", "replanned", "replans", "factorisations", "core_valid", "n", "n_core", "n_matrix",
+    "dense", "midway", "replanned", "replans", "no_pivots", "factorisations", "core_valid", "n", "n_core", "n_matrix",
     "at_matrix_starts", "at_matrix_rows", "at_matrix", "at_row_scale", "at_column_scale", "at_row_order",
     "at_column_order", "at_absolute", "at_relative", "at_cap",
 )  # fmt: skip
@@ -42,7 +42,8 @@ def header(
         "N_ENDS": len(opened.limits),
         **{f"AT_{name.upper()}": PLACES[name][0] for name in FIELDS},
         **{f"AT_{name.upper()}": image.piece + at for name, at in piece.items()},
-        **{f"STATUS_{name}": value for name, value in _statuses().items()}, "PHASE_TRY": codes.TRY,
+        **{f"STATUS_{name}": value for name, value in _statuses().items()},
+        "PHASE_TRY": codes.TRY, "PHASE_SETTLE": codes.SETTLE,
     }  # fmt: skip
     laws = [(which, law) for which, one in enumerate(tuned) for law in one.laws]
     kept = kept_words(opened, image.size, [law for _, law in laws])

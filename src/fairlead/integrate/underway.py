@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fairlead.errors import UsageError
+from fairlead.integrate.codes import SETTLE
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.linear.replan import replan
 from fairlead.integrate.machine_code import compiled_loop
@@ -82,12 +83,14 @@ class Underway:
         return done
 
     def _replan(self) -> None:
-        """Other pivots; without any the equations are singular."""
+        """Other pivots; without any the equations are singular, which a settlement is told once: other zones may do."""
         number = self.scope.memory.number
         again = int(number["factorisations"]) <= self._replanned_at + 1
         found = not again and replan(self.scope.memory, self.scope.problem)
         if number["midway"]:
             number["replanned"] = 1
+        elif not found and number["phase"] == SETTLE and not again:
+            number["no_pivots"] = 1
         elif not found:
             self.status = Status.SINGULAR
         self._replanned_at = int(number["factorisations"])

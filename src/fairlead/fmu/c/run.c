@@ -202,6 +202,7 @@ static int replan(Run *run) {
     run->replanned_at = *whole(run, AT_FACTORISATIONS);
     if (said == PIVOTS_NO_ROOM) return end(run, STATUS_REPLAN);
     if (*whole(run, AT_MIDWAY)) *whole(run, AT_REPLANNED) = 1;
+    else if (said == PIVOTS_SINGULAR && *whole(run, AT_PHASE) == PHASE_SETTLE && !again) *whole(run, AT_NO_PIVOTS) = 1;
     else if (said == PIVOTS_SINGULAR) return end(run, STATUS_SINGULAR);
     return 0;
 }

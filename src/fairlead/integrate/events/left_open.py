@@ -17,7 +17,7 @@ run ends and names what is open.
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import SINGULAR
+from fairlead.integrate.codes import DONE, SINGULAR
 from fairlead.integrate.events.consistent import prepare_consistent
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.memory.foreign import compiled, indices, mass_at, reals, switch_at
@@ -37,11 +37,17 @@ def change_to_near_pattern(m):
             changed += 1
             if not may_hold(m.problem, z):
                 return False
-    if changed == 0 or determines(m):
+    if changed == 0 or determines(m, True):
         return False
+    return change_few(m, changed, True) or change_few(m, changed, False)
+
+
+@compiled
+def change_few(m, changed, surely):
+    """One of `changed` machines, an exchange or another that lets go, in this order; see `determines`."""
     if changed > 1:
-        return change_one(m)
-    return exchange_one(m) or open_one(m)
+        return change_one(m, surely)
+    return exchange_one(m, surely) or open_one(m, surely)
 
 
 @compiled
@@ -55,15 +61,19 @@ def may_hold(problem, z):
 
 
 @compiled
-def determines(m):
-    """True if the zones in force leave no unknown open, be it with other pivots."""
+def determines(m, surely):
+    """True if the zones in force leave no unknown open; if not `surely`, also if only other pivots would tell.
+
+    Of a full matrix it is always sure. A pattern that turns out to leave one open with other pivots too is left again.
+    """
     problem, matrices = m.problem, m.linear.matrices
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
-    return prepare_consistent(problem, m.point, m.linear) != SINGULAR
+    status = prepare_consistent(problem, m.point, m.linear)
+    return status == DONE if surely else status != SINGULAR
 
 
 @compiled
-def change_one(m):
+def change_one(m, surely):
     """Of several that changed only one does; False, and all of them, where no one determines all."""
     nz, settling = m.problem.n_machines, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
@@ -72,7 +82,7 @@ def change_one(m):
         if wanted[kept] != before[kept]:
             for z in range(nz):
                 zones[z] = wanted[z] if z == kept else before[z]
-            if determines(m):
+            if determines(m, surely):
                 for z in range(nz):
                     before[z] = wanted[z]
                 return True
@@ -82,7 +92,7 @@ def change_one(m):
 
 
 @compiled
-def exchange_one(m):
+def exchange_one(m, surely):
     """One that changed before goes back to the zone it began in, and the last one stays; False without one."""
     nz, settling = m.problem.n_machines, m.events.settling
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
@@ -91,7 +101,7 @@ def exchange_one(m):
         if zones[z] == before[z] and zones[z] != first[z] and may_hold(m.problem, z):
             left = zones[z]
             zones[z] = first[z]
-            if determines(m):
+            if determines(m, surely):
                 for k in range(nz):
                     before[k] = zones[k]
                 before[z] = left
@@ -101,7 +111,7 @@ def exchange_one(m):
 
 
 @compiled
-def open_one(m):
+def open_one(m, surely):
     """Another that holds lets go, by the guard nearest to its limit of those that determine all; False without one."""
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
     nz, ng = problem.n_machines, guards.n_guards
@@ -118,7 +128,7 @@ def open_one(m):
             continue
         left = zones[z]
         follow(m, i)
-        if zones[z] != left and determines(m):
+        if zones[z] != left and determines(m, surely):
             opens, best, nearest = z, zones[z], g[i] / tolerance[i]
         zones[z] = left
     if opens < 0:
@@ -128,7 +138,7 @@ def open_one(m):
     for k in range(nz):
         before[k] = zones[k]
     before[opens] = left
-    return determines(m)
+    return determines(m, surely)
 
 
 @compiled

@@ -13,7 +13,7 @@ with such forces at zero: the contact lifts off, and lands with forces of the ot
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import NOT_CONSISTENT, RELEASED
+from fairlead.integrate.codes import NOT_CONSISTENT, RELEASED, SINGULAR
 from fairlead.integrate.events.guards import evaluate_guards, latches_wait
 from fairlead.integrate.events.right_root import find_consistent
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
@@ -29,7 +29,8 @@ def find_answer(m, iterations):
     copy(reals(point.at_y, point.n), reals(point.at_y_unsettled, point.n))
     copy(reals(point.at_slope, point.n), reals(point.at_slope_unsettled, point.n))
     status = find_consistent(m, iterations)
-    return RELEASED if status == NOT_CONSISTENT and fire_without_answer(m) else status
+    none = status == NOT_CONSISTENT or (status == SINGULAR and m.events.settling.passes == 0)
+    return RELEASED if none and fire_without_answer(m) else status
 
 
 @compiled

@@ -6,7 +6,7 @@ anew: a contact that switches changes a few. The factors of the others are what 
 
 from __future__ import annotations
 
-from fairlead.integrate.codes import DONE
+from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR
 from fairlead.integrate.linear.condensing import FROM_JACOBIAN, FROM_MASS
 from fairlead.integrate.linear.perturbed_pivots import factorise_columns, substitute
 from fairlead.integrate.linear.sparse import backward_error, mark_users, scale_rows
@@ -18,7 +18,10 @@ REFILL = 0.3
 
 @compiled
 def factorise_core(linear, scale, consistent):
-    """Factorise s M - J, or the matrix of the consistent point; DONE, or INACCURATE: a pivot is not to be trusted."""
+    """Factorise s M - J, or the matrix of the consistent point; DONE, or INACCURATE: a pivot is not to be trusted.
+
+    SINGULAR where other pivots were asked for, and there were none.
+    """
     matrices, core, factors = linear.matrices, linear.core, linear.factors
     n = core.n_core
     kind = 1 if consistent else 0
@@ -44,6 +47,9 @@ def factorise_core(linear, scale, consistent):
         mark_users(factors, changed)
     status = factorise_columns(factors)
     core.core_valid = 1 if status == DONE else 0
+    if factors.no_pivots == 1:
+        factors.no_pivots = 0
+        status = SINGULAR if status == INACCURATE else status
     return status
 
 

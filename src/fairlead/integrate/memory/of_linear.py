@@ -53,6 +53,7 @@ FACTORS = Struct(
         "n_core", "n_matrix", "dense", "culprit",
         # columns of the last factorisation
         "n_redone", "n_perturbed", "most_perturbed", "factorisations", "solves", "replans",
+        "no_pivots",  # 1: for the matrix that asked for other pivots there are none, it is singular
     ),
     numbers=(
         "factored_h", "factored_theta", "mass_factor",
