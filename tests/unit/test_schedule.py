@@ -49,3 +49,20 @@ def test_a_wave_is_scaled_and_differentiated_with_its_sine():
     given = wave({"constant": 1.0, "drift": {"rate": 2.0}, "sine": {"amplitude": 3.0, "frequency": 0.5}})
     assert given.scaled(2.0, 1.0)(0.7) == pytest.approx(2 * given(0.7) + 1)
     assert given.derivative()(0.7) == pytest.approx(2.0 + 3 * math.pi * math.cos(0.7 * math.pi))
+
+
+@pytest.mark.parametrize("to", [0.5, -0.5])
+def test_a_stop_is_a_motion_in_the_direction_that_it_ends(to):
+    """The direction decides to which side friction helps: it is not that of the acceleration."""
+    schedule = Schedule(wave({"trapezoid": {"to": to, "start": 1, "rise": 1, "stay": 3, "fall": 1}}), 0.0, 10.0)
+    changes = list(schedule.accelerations())
+    assert [t for t, _, _ in changes] == pytest.approx([1, 2, 5, 6])
+    assert [rate for _, _, rate in changes] == pytest.approx([to, to, -to, -to])
+    assert all(speed * to > 0 for _, speed, _ in changes)
+
+
+def test_a_speed_that_swings_comes_to_rest_in_either_direction():
+    schedule = Schedule(wave({"sine": {"amplitude": 0.4, "frequency": 0.5}}), 0.0, 4.0)
+    assert {(speed > 0, rate > 0) for _, speed, rate in schedule.accelerations()} == {
+        (True, True), (True, False), (False, True), (False, False)
+    }  # fmt: skip

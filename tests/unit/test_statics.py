@@ -370,3 +370,30 @@ def test_the_torque_of_a_winch_that_a_given_force_turns_is_that_force_times_its_
     torques = [drive.torque for drive in drives if drive.name == "winch"]
     assert len(torques) > 1
     assert torques == pytest.approx([-200 * 0.65] * len(torques), rel=1e-9)
+
+
+@pytest.mark.parametrize("to", [0.3, -0.3])
+def test_a_drive_that_stops_a_line_is_helped_by_its_friction_when_hauling_and_not_when_paying_out(scene, to):
+    """T_in = (T_out + m a) e^(-+mu phi) + m' a: as the line leaves the bend outboard friction holds it back there."""
+    text = f"""
+    components:
+      rope: {{type: Cable, length: 20 m, element: 0.2 m, start: -8 m, tension: 500 N, mass: 1.2 kg/m,
+             stiffness: 800 kN}}
+      route:
+        type: Route
+        stations:
+          - {{type: Winch, radius: 0.5 m, moment: 1 kg*m^2}}
+          - {{type: Straight, length: 2 m}}
+          - {{type: Bend, angle: 90 deg, radius: 1.2 m, friction: 0.4}}
+      drive: {{type: MotionSource, velocity: {{trapezoid: {{to: {to} m/s, rise: 1 s, stay: 2 s, fall: 0.2 s}}}}}}
+      load: {{type: ForceSource, force: 500 N}}
+    connections: [[rope.path, route.path], [drive.flange, route.winch.rim], [load.flange, rope.outboard]]
+    run: {{stop: 4 s}}
+    """
+    starts = one(scene(text)).starts
+    stops = [state for state in starts if state.acceleration * to < 0]
+    assert stops
+    for state in stops:
+        (winch,) = [drive for drive in state.drives if drive.name == "winch"]
+        factor = math.exp(-0.4 * math.pi / 2 * math.copysign(1.0, to))
+        assert abs(winch.force) == pytest.approx(500 * factor, rel=0.12)  # of its own mass the line adds up to 45 N

@@ -15,6 +15,7 @@ from fairlead.component.piecewise import FAR, horner, linear_table
 from fairlead.component.values import Wave, steady
 
 STILL = 1e-9  # m/s; less is rest
+INSIDE = 1e-6  # share of a piece by which an instant beside its end is inside
 LOOKS = 2001  # instants at which a speed without steady stretches is looked at
 
 
@@ -108,22 +109,26 @@ class Schedule:
     def accelerations(self) -> Iterator[tuple[float, float, float]]:
         """(t, speed, acceleration) at both ends of every piece in which the speed changes; steps are left out.
 
-        Of a speed that swings the largest acceleration of each sense, in each direction of the speed.
+        Where the piece comes to rest, or begins at rest, the least speed in the direction in which it moves there. Of a
+        speed that swings the largest acceleration of each sense, in each direction of the speed.
         """
         if self.wave.is_swinging:
             yield from self._largest()
             return
         for begin, end, row in self._pieces():
-            for t in (begin, end) if row[4:].any() else ():
-                yield t, self.speed(t), float(horner(row[4:] * np.arange(1, len(row) - 3), t - row[2]))
+            inside = INSIDE * (end - begin)
+            for t, near in ((begin, begin + inside), (end, end - inside)) if row[4:].any() else ():
+                rate = float(horner(row[4:] * np.arange(1, len(row) - 3), t - row[2]))
+                yield t, _moving(self.speed(t), self.speed(near)), rate
 
     def _largest(self) -> Iterator[tuple[float, float, float]]:
-        rate, times = self.wave.derivative(), np.linspace(self.begin, self.end, LOOKS).tolist()
-        looks = [(t, self.speed(t), rate(t)) for t in times]
+        change, times = self.wave.derivative(), np.linspace(self.begin, self.end, LOOKS).tolist()
+        looks = [(t, self.speed(t), change(t)) for t in times]
         for sense, way in itertools.product((1, -1), (1, -1)):
             here = [one for one in looks if sense * one[2] > 0 and way * one[1] >= 0]
             if here:
-                yield max(here, key=lambda one: round(abs(one[2]), 12))
+                t, speed, rate = max(here, key=lambda one: round(abs(one[2]), 12))
+                yield t, _moving(speed, way), rate
 
     def _pieces(self) -> Iterator[tuple[float, float, np.ndarray]]:
         """Times between two borders, with the row of the pieces that do not swing."""
@@ -162,6 +167,11 @@ def _just(wave: Wave, left: float, right: float) -> tuple[float, float]:
     """Values just right of one border and just left of the next."""
     tiny = 1e-9 * (right - left)
     return wave(left + tiny), wave(right - tiny)
+
+
+def _moving(speed: float, way: float) -> float:
+    """The speed, or the least one that is no rest, in the direction of `way`."""
+    return speed if abs(speed) > STILL else math.copysign(2 * STILL, way)
 
 
 def _sign(speed: float) -> int:

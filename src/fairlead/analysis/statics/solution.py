@@ -124,7 +124,7 @@ def starting(route: LaidRoute, schedule: Schedule) -> Iterator[State]:
         found = [one for one in schedule.accelerations() if sign * one[2] > STILL]
         if found:
             made = [
-                state(route, t, speed if abs(speed) > STILL else sign * STILL, schedule.way(t), acceleration)
+                state(route, t, speed, schedule.way(t), acceleration)
                 for t, speed, acceleration in found
             ]
             yield max(made, key=lambda one: max((abs(drive.force) for drive in one.drives), default=0.0))
