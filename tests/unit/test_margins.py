@@ -235,3 +235,22 @@ def test_the_side_wall_bears_the_peak_that_the_same_row_tells_however_seldom_row
     assert bend.peak.value > 600
     assert bend.side_wall.value == pytest.approx(bend.peak.value / 2.0, rel=1e-12)
     assert bend.side_wall.t == bend.peak.t
+
+
+def test_rows_that_miss_what_a_layer_had_between_them_are_told(scene):
+    """Sums of layers are known in rows only; a hand that swings twice a second is seen once in half a second."""
+    text = """
+    components:
+      rope: {{type: ArrayModule, length: 4 m, element: 0.4 m, start: 0.2 m, tension: 500 N,
+             hose: {{mass: 1 kg/m, stiffness: 8 kN}}, core: {{mass: 1.5 kg/m, stiffness: 800 kN}},
+             bulkhead_friction: 0.5}}
+      route: {{type: Route, stations: [{{type: Bend, start: 1 m, angle: 90 deg, radius: 1.2 m, friction: 0.2}}]}}
+      drive: {{type: MotionSource, velocity: {{sine: {{amplitude: 0.3 m/s, frequency: 2 Hz}}}}}}
+      load: {{type: ForceSource, force: 500 N}}
+    connections: [[rope.path, route.path], [drive.flange, rope.inboard], [load.flange, rope.outboard]]
+    run: {{stop: 1 s}}
+    record: {{every: {every} s, signals: ["rope.hose[*].tension", "rope.core[*].tension", "rope.hose_node[*].x"]}}
+    """
+    coarse, fine = (scene(text.format(every=every)).run(out=None).margins().notes for every in (0.5, 1e-3))
+    assert any("more often than every 0.5 s: tension of all layers, side_wall and scuffed" in note for note in coarse)
+    assert not any("more often" in note for note in fine)

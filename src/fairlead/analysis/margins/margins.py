@@ -18,6 +18,9 @@ from fairlead.results import Result
 from fairlead.results.run_file import RUN_FILE
 from fairlead.results.run_schema import routes
 
+MISSED = 0.02
+"""Share of the largest tension of a layer that recorded rows may miss without a word."""
+
 
 @dataclass(frozen=True)
 class Worst:
@@ -94,7 +97,7 @@ class _Judge(RecordedLine):
         found = tuple(one for one in stations if one is not None)
         return LineMargins(
             self.record["line"], found, self._whole(found), self.record["ruck_force"], self.record["side_wall"],
-            tuple(self._missing()),
+            (*self._missing(), *self._too_coarse()),
         )  # fmt: skip
 
     def _station(self, station: dict[str, Any]) -> StationMargins | None:
@@ -220,6 +223,23 @@ class _Judge(RecordedLine):
         span = np.diff(self.result.t, prepend=self.result.t[0])
         before = np.vstack([rate[:1], rate[:-1]]) if rate.ndim > 1 else np.concatenate([rate[:1], rate[:-1]])
         return (rate + before) / 2 * (span[:, None] if rate.ndim > 1 else span)
+
+    def _too_coarse(self) -> Iterator[str]:
+        """Where rows miss much of what a layer had between them: sums of layers, and slides, are known in rows only."""
+        if self.layers is None or len(self.layers) < 2 or len(self.result.t) < 2:
+            return
+        for layer, tensions in zip(self.record["layers"], self.layers, strict=True):
+            seen = np.abs(tensions).max(axis=0)
+            found = [self.result.extremes(f"{self.name(layer, k)}.tension") for k in range(tensions.shape[1])]
+            had = np.array([max(abs(one.lowest), abs(one.highest)) for one in found])
+            k = int((had - seen).argmax())
+            if had[k] - seen[k] > MISSED * had.max():
+                apart = float(np.diff(self.result.t).max())
+                yield (
+                    f"more often than every {apart:.3g} s: tension of all layers, side_wall and scuffed are those of "
+                    f"recorded rows, and between them {self.name(layer, k)} had {had[k]:.4g} N, in them {seen[k]:.4g} N"
+                )
+                return
 
     def _missing(self) -> Iterator[str]:
         """What to record, and what that would tell."""
