@@ -115,6 +115,12 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     GUARD_PLACE,  # int64 (guards, GUARD_ROW)  zone position (or -1), first entry of its class in GUARD_TO, slots, slot
     GUARD_TO,  # int64 (., TO)         zone it leads to (-1: none), machine, step of a table's piece
     GUARD_MACHINES,  # int64 (guards,)   first position in `zones` of the instance
+    N_TOLD,
+    TOLD_GUARDS,  # int64 (told,)          guards of parts that only tell signals, where anything is sampled
+    TOLD_FIRED,  # int64 (told,)           scratch: those of them that are above zero
+    GUARDS_NOW,  # float64 (guards,)       scratch
+    N_MACHINES,
+    ZONES_KEPT,  # int64 (machines,)       scratch: zones in force while samples are taken
     TIME_PLACE,  # int64 (time, TIME)    position in zones, base in tables, pieces
     OUTPUTS_ALL,  # float64 (all,)
     SELECTED,  # int64 (recorded,)     position in all outputs, or -1 - position in z
@@ -198,7 +204,7 @@ NOT_IN_FORCE = -1.0  # the value of a guard slot the zone in force does not use
     N_SHOWN_FLOWS,  # calls for the flows that give the accelerations and reactions that outputs that are shown read
     SHOWN_FLOWS,  # int64 (., CALL)
     CONTEXT,
-) = range(142)
+) = range(148)
 
 # Positions in a row of an array, and how long such a row is: column c of row k is at ROW * k + c.
 CALL_BLOCK, CALL_FIRST, CALL_END, CALL = range(4)  # of SCHEDULE: block, first instance, one past the last

@@ -34,7 +34,7 @@ TYPES = {"int": INT, "float": DOUBLE, "F8": F8, "I8": INT.as_pointer(), "None": 
 SHARED = {
     "ctx": "I8", "t": "float", "y": "F8", "mode": "int", "r": "F8", "g": "F8", "ledger": "int",
     "w": "F8", "values": "F8", "ft": "F8", "of_whole": "F8", "out": "F8", "first": "int",
-    "end": "int", "table": "int", "part": "int",
+    "end": "int", "table": "int", "part": "int", "fired": "I8", "n_fired": "int",
 }  # fmt: skip
 """Arguments of shared functions."""
 

@@ -197,6 +197,20 @@ def latches(blocks: Sequence[Block]) -> Integers:
     return np.array(found, dtype=np.int64)
 
 
+def told(blocks: Sequence[Block], machines: int) -> Memory:
+    """Guards of classes that only tell signals, which samples ask for; and room to follow them (`settle_told`)."""
+    found: list[bool] = []
+    for block in blocks:
+        tells = not any(key(target).kind == PORT for target in block.kernel.structure.targets)
+        found += [tells] * len(_sharing(block)) * block.count
+    sampled = any(block.kernel.structure.period for block in blocks)
+    guards = np.flatnonzero(found) if sampled else np.zeros(0, dtype=np.int64)
+    return {
+        "told_guards": guards.astype(np.int64), "told_fired": np.zeros(len(guards), dtype=np.int64),
+        "guards_now": np.zeros(len(found)), "zones_kept": np.zeros(machines, dtype=np.int64),
+    }  # fmt: skip
+
+
 def machine_zones(blocks: Sequence[Block], count: int) -> list[Sequence[str]]:
     """Names of the zones of every machine."""
     names: list[Sequence[str]] = [()] * count

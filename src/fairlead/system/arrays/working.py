@@ -20,7 +20,7 @@ CHANGED = (
     "z", "w", "zones", "partials", "work", "moving_base", "fixed_done", "outputs_all", "f_rest", "sample_count",
     "sample_start", "set_due", "set_values", "circle_seen", "circle_still", "circle_nodes", "circle_ratio",
     "guard_inertia", "rated_known", "rated_root", "rated_mode", "given_mean", "mean", "light_work",
-    "light_given",
+    "light_given", "zones_kept", "guards_now", "told_fired",
 )  # fmt: skip
 """Arrays that callbacks write to, by their names in `layout.py`; and the discrete variables of sampled blocks, and the
 inputs of blocks that are set from outside."""

@@ -22,9 +22,15 @@ def swings(ctx, t, y, angles):
 
 
 def switch(ctx, t, y, fired, n_fired):
-    """Follow the fired guards; of several of one instance the first counts."""
+    """Follow the fired guards; of several of one instance the first counts. How many have fired."""
+    follow_guards(ctx, fired, n_fired)
+    return n_fired
+
+
+def follow_guards(ctx, fired, n_fired):
+    """Put the zones in force to which these guards lead, one for each instance."""
     place, to, machines, zones = i8(ctx[GUARD_PLACE]), i8(ctx[GUARD_TO]), i8(ctx[GUARD_MACHINES]), i8(ctx[ZONES])
-    changed, last = 0, -1
+    last = -1
     for k in range(0, n_fired):
         row = GUARD_ROW * fired[k]
         first = machines[fired[k]]
@@ -42,8 +48,6 @@ def switch(ctx, t, y, fired, n_fired):
                 zones[machine] = to_zone
             if to_zone < 0:
                 zones[machine] += to[entry + TO_PIECE]
-            changed += 1
-    return changed
 
 
 def slip(ctx, t, y, r):
@@ -107,6 +111,42 @@ def next_time(ctx, t):
     return soonest
 
 
+def settle_told(ctx, t, y):
+    """Put the zones of parts that only tell signals in force that follow from what is given at t.
+
+    A sample that falls on a step of a source reads what the source has then; without this a dead zone or a table on
+    the way would be read in the zone of before, which is neither what was nor what is.
+    """
+    told, fired, g = i8(ctx[TOLD_GUARDS]), i8(ctx[TOLD_FIRED]), f8(ctx[GUARDS_NOW])
+    busy = 1
+    for _ in range(0, ctx[N_TOLD] + 1):
+        if busy == 1:
+            look(ctx, t, y)
+            if ctx[GUARDS_READ] > 0:
+                accelerate(ctx, t, y)
+            ask(ctx, GUARD, g)
+            n_fired = 0
+            for k in range(0, ctx[N_TOLD]):
+                if g[told[k]] > 0.0:
+                    fired[n_fired] = told[k]
+                    n_fired += 1
+            busy = 0
+            if n_fired > 0:
+                busy = 1
+                follow_guards(ctx, fired, n_fired)
+
+
+def sample_as_given(ctx, t, y):
+    """Take samples with the zones of signals as they follow from what is given at t; those in force settle later."""
+    zones, kept = i8(ctx[ZONES]), i8(ctx[ZONES_KEPT])
+    for k in range(0, ctx[N_MACHINES]):
+        kept[k] = zones[k]
+    settle_told(ctx, t, y)
+    take_samples(ctx, t, y)
+    for k in range(0, ctx[N_MACHINES]):
+        zones[k] = kept[k]
+
+
 def at_time(ctx, t, y):
     """Take what was set, move to the pieces that hold from t on, sample what is due; samplers read what was before.
 
@@ -128,6 +168,9 @@ def at_time(ctx, t, y):
                 zones[machine] += 1
                 changed = 1
     if ctx[N_SAMPLED] > 0:
-        take_samples(ctx, t, y)
+        if changed * ctx[N_TOLD] > 0:
+            sample_as_given(ctx, t, y)
+        else:
+            take_samples(ctx, t, y)
         changed = 1
     return changed

@@ -33,7 +33,20 @@ from fairlead.system.callbacks.evaluation import (
 from fairlead.system.callbacks.light_rows import eliminate_light, hold_light, support_light, weigh_supports
 from fairlead.system.callbacks.recorded import expand, let_slip, outputs, show, spread
 from fairlead.system.callbacks.rigid_clusters import add_shares, guard_shares, look_around, regroup, unite
-from fairlead.system.callbacks.switching import at_time, drift, gap, guards, next_time, slip, slips, swings, switch
+from fairlead.system.callbacks.switching import (
+    at_time,
+    drift,
+    follow_guards,
+    gap,
+    guards,
+    next_time,
+    sample_as_given,
+    settle_told,
+    slip,
+    slips,
+    swings,
+    switch,
+)
 
 SPREAD = "spread"
 """The one that no engine calls."""
@@ -60,7 +73,8 @@ SHARED = (
     unite, look_around, regroup, add_shares, guard_shares, find_known, find_roots, share_rates, add_rates, off_balance,
     make_calls, give_motions, average, put_average, look, ask, gather, react, follow, of_accelerations,
     eliminate_light, weigh_supports, support_light, evaluate,
-    divide, accelerate, accelerate_shown, slips, take_samples, fix, assemble, hold_light, expand, let_slip, show,
+    divide, accelerate, accelerate_shown, slips, take_samples, follow_guards, settle_told, sample_as_given,
+    fix, assemble, hold_light, expand, let_slip, show,
 )  # fmt: skip
 """What callbacks call."""
 

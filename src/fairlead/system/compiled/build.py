@@ -28,6 +28,7 @@ from fairlead.system.arrays.switching import (
     met,
     stops,
     takes_impulse,
+    told,
 )
 from fairlead.system.arrays.timing import first_pieces, samplers
 from fairlead.system.arrays.working import set_apart
@@ -69,7 +70,7 @@ def build(
     memory |= loose | switches | rows(blocks, laid, end) | samplers(blocks) | {"stored": stored(blocks, laid)}
     memory |= working_arrays(flat, blocks, numbering, tables, len(machines), program)
     memory |= circle_arrays(flat, blocks, laid, numbering, end.mass) | {"tau": np.array([HOLD_TIME])} | rated
-    memory |= nothing_set()
+    memory |= nothing_set() | told(blocks, len(machines))
     more = len(rated["rated_terms"]) + len(memory["light_terms"])
     memory["partials"] = np.concatenate([memory["partials"], np.zeros(more)])
     memory["guard_inertia"] = guard_inertias(flat, blocks, laid, len(slots))
