@@ -15,6 +15,7 @@ from fairlead.cases.figures import Figure
 from fairlead.patterns import matcher
 from fairlead.result import Result
 from fairlead.results.curves import INSIDE as INSIDE_A_STEP
+from fairlead.results.events import lasting
 
 POINTS = {1: 3, 2: 5}
 """Of Gauss and Legendre's rule, by the power of the signal: exact for the dense output, which has degree 4."""
@@ -90,7 +91,9 @@ def _time(figure: Figure, result: Result) -> float:
 def _times(figure: Figure, result: Result) -> list[float]:
     component, zone, _ = figure.arguments
     fits = matcher(component)
-    return [one.t for one in result.events if fits(one.component) and (not zone or one.zone_to == zone)]
+    chosen = (one for one in result.events if fits(one.component))
+    span = float(result.t[-1] - result.t[0]) if len(result.t) else 0.0
+    return [one.t for one in lasting(chosen, span) if not zone or one.zone_to == zone]
 
 
 def _period(figure: Figure, result: Result) -> float:

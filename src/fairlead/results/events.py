@@ -27,6 +27,27 @@ class Event(NamedTuple):
     guard: str
 
 
+AT_ONCE = 1e-8
+"""Share of a run within which a change and the way back count as none: no motion of the scene is that fast."""
+
+
+def lasting(events: Iterable[Event], span: float) -> list[Event]:
+    """The changes that last, of a run of `span` [s]: without zones that a part leaves again at once.
+
+    At an instant a contact may go through several zones until one fits; a dwell that ends may do the same. Of those the
+    last one counts, at the time of the first, and none where it is the one from before.
+    """
+    kept = dict[str, list[Event]]()
+    for event in events:
+        known = kept.setdefault(event.component, [])
+        first = event
+        while known and event.t - known[-1].t <= AT_ONCE * span:
+            first = known.pop()
+        if event.zone_to != first.zone_from:
+            known.append(first._replace(zone_to=event.zone_to, guard=event.guard))
+    return sorted((one for each in kept.values() for one in each), key=lambda one: one.t)
+
+
 class EventWriter:
     """Appends events to a new `events.csv`; only whole lines ever reach the file."""
 

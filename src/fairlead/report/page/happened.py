@@ -17,6 +17,7 @@ from fairlead.report.measured import measured
 from fairlead.report.page.sentence import Sentence
 from fairlead.report.page.signals import families, first_panels
 from fairlead.report.page.zones import PIECE, meaning, starts
+from fairlead.results.events import lasting
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ def spans(result: Result) -> dict[str, list[Span]]:
     first, last = float(result.t[0]), float(result.t[-1])
     found: dict[str, list[Span]] = {}
     since = {name: (first, zone) for name, zone in starts(result.run).items()}
-    for event in result.events:
+    for event in lasting(result.events, last - first):
         t, zone = since.get(event.component, (first, event.zone_from))
         found.setdefault(event.component, []).append(Span(t, event.t, zone))
         since[event.component] = (event.t, event.zone_to)
