@@ -40,6 +40,13 @@ def test_a_block_that_should_rest_and_does_not_still_counts():
     assert (name, error) == ("rests", pytest.approx(1e-3 / (LEAST * 0.1)))
 
 
+def test_where_nothing_moves_there_is_no_error():
+    """A block that is held: what is left is rounding, of which no difference is a share."""
+    t = Recorded.t
+    right = Recorded(one=5.0 + 1e-16 * t, other=1e-18 * t)
+    assert _error(Recorded(one=5.0 + 1e-9 * t, other=1e-5 * t), right, "*") == (None, "")
+
+
 SWINGS = """
     components:
       g: {type: Ground}
@@ -73,3 +80,18 @@ def test_the_error_is_that_of_the_motion_and_not_of_lines_between_its_rows(scene
     assert hold == pytest.approx(right, rel=0.2)
     assert hold < 5e-6
     assert hold < binding
+
+
+def test_the_error_does_not_depend_on_how_often_the_scene_is_recorded(scene, tmp_path):
+    """Lines between points of a coarse grid were told as an error a hundred times too large."""
+    errors = []
+    for every in ("", "record: {every: 0.3 s}"):
+        text = f"{SWINGS}    {every}"
+
+        def load(settings, text=text):
+            return scene(text, **settings)
+
+        found = compare(load, {"friction.method": ["hold", "tanh"]}, out=tmp_path / (every[:6] or "all"))
+        errors.append([row.error for row in found.rows])
+    assert errors[0] == pytest.approx(errors[1], rel=1e-9)
+    assert errors[0][1] > 2 * errors[0][0] > 0.0

@@ -94,7 +94,8 @@ def _print(found: "Comparison") -> None:
     screen = console()
     screen.print(table)
     worst = sorted({row.worst for row in found.rows if row.worst})
-    screen.print(f"error against {found.reference}, of the range of {', '.join(worst) or 'no signal'}")
+    of = f"of the range of {', '.join(worst)}" if worst else "none can be told: nothing compared moves there"
+    screen.print(f"error against {found.reference}, {of}")
     for row in found.rows:
         if row.reason:
             screen.print(f"{row.label}: {row.reason}", markup=False)

@@ -4,9 +4,10 @@
     print(comparison.rows[0].error)
 
 Error is the root mean square difference from the reference over the common time, relative to the range of the signal
-in the reference, or to a thousandth of the widest range of its unit where that is more; the worst signal counts. Both
-are taken from the curves of their steps: lines between rows would be the larger error of a run with few of them. Runs
-that end early or do not start are rows with a reason.
+in the reference, or to a thousandth of the widest range of its unit where that is more; the worst signal counts, and
+none that stands still there. Both are taken from the curves of their steps: lines between rows would be the larger
+error of a run with few of them. So every step is recorded, unless `settings` say otherwise. Runs that end early or do
+not start are rows with a reason.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ FINER = 1e-2  # accuracy of the reference, relative to that of the scene
 GRID = 4001  # common times at which signals are compared
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 LEAST = 1e-3  # of the widest range of a unit: what hardly moves is measured by that
+STILL = 1e-12  # m or rad, or of its place: a range of rounding
+EVERY = "record.every"
 VARIED = Location("--vary")
 
 
@@ -78,7 +81,7 @@ def compare(
     asked.path("out", out)
     wall = asked.above_zero("max_wall", max_wall, "s")
     asked.refuse()
-    folder, fixed = pathlib.Path(out), dict(settings or {})
+    folder, fixed = pathlib.Path(out), {EVERY: "null", **(settings or {})}
     vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
     _refuse_mistakes(load, fixed, chosen)
@@ -164,7 +167,7 @@ def _error(result: Result, reference: Result, pattern: str) -> tuple[float | Non
               for unit in ("m", "rad")}  # fmt: skip
     for signal in compared:
         span = max(float(np.ptp(right[signal.name])), LEAST * widest[signal.unit])
-        if span == 0:
+        if span <= STILL * max(1.0, float(np.abs(right[signal.name]).max())):
             continue
         difference = result.at(signal.name, t) - right[signal.name]
         share = float(np.sqrt(np.mean(difference**2))) / span
