@@ -30,7 +30,7 @@ class SignalDelay(Controller):
     value = Input("1", "What comes in.", signed=True)
     samples = Count("Delay in samples.", default=1)
     initial = Parameter("1", "Signal before the first value has come through.", default=0.0, physics=False)
-    signal = Output("1", "Output signal.")
+    signal = Output("1", "Output signal.", start="initial")
 
     def begin(self):
         """Nothing is under way."""

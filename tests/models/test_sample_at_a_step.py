@@ -70,3 +70,21 @@ def test_nothing_happens_to_a_loop_that_measures_the_size_of_what_turns_round(si
     turned, kept = (simulate(loop.format(to=to)) for to in (-0.6, 0.6))
     for t in (1.95, 2.05, 2.15, 3.0):
         assert turned.at("ctl.command", t) == pytest.approx(kept.at("ctl.command", t), abs=1e-6)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+def test_what_is_sampled_at_the_start_reads_what_a_delay_begins_with(simulate, engine):
+    """Two delays in a row and a sample: 7 until what came in at the start has gone through both."""
+    text = """
+    components:
+      s: {type: SignalSource, value: 3}
+      one: {type: SignalDelay, samples: 3, initial: 7, period: 10 ms}
+      two: {type: SignalDelay, samples: 2, initial: 7, period: 10 ms}
+      hold: {type: SampleHold, period: 10 ms}
+    connections: [[s.signal, one.value], [one.signal, two.value, hold.value]]
+    run: {stop: 0.1 s}
+    """
+    result = simulate(text, **{"run.engine": engine})
+    assert [result.at("two.signal", t) for t in (0.005, 0.025, 0.045, 0.055)] == pytest.approx([7, 7, 7, 7])
+    assert result.at("two.signal", 0.075) == pytest.approx(3)
+    assert [result.at("hold.signal", t) for t in (0.005, 0.035, 0.045)] == pytest.approx([7, 7, 3])

@@ -29,7 +29,8 @@ class Controller(Component, abstract=True):
     """Base of controllers in plain Python: `sample(self, t, ...)`, and `begin(self)` and `end(self)` round a run.
 
     Arguments of `sample` go by name: `t` and any input (a number in SI) or port (`shaft.speed`). Parameters are
-    attributes of `self`. It returns the outputs as a map, or the number alone when there is one.
+    attributes of `self`. It returns the outputs as a map, or the number alone when there is one. Until the first sample
+    an output is its `start`, which others that are sampled at that instant read.
     """
 
     period = Parameter("s", "Time between samples.", above=0)
@@ -39,7 +40,7 @@ class Controller(Component, abstract=True):
         super().__init_subclass__(abstract=abstract, **keywords)
         if not abstract:
             has = cls.declaration
-            held = {name: Discrete(output.unit, output.doc) for name, output in has.outputs.items()}
+            held = {name: Discrete(one.unit, one.doc, one.start) for name, one in has.outputs.items()}
             cls.declaration = replace(has, discrete=held, python=True)
             _check(cls)
 

@@ -119,6 +119,7 @@ class Output:
     `rounded_by` is the parameter over which a corner at zero of this output is rounded off; a run tells where the
     output stays so small that the rounding counts. In a Composite the parameter has the same name.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
+    `start` is what an output of a Controller is until its first sample: a number, or a parameter's name.
     """
 
     unit: str
@@ -128,6 +129,7 @@ class Output:
     rounded_by: str = ""
     of: str = ""
     gone: tuple[str, str] | None = None
+    start: str | float = 0.0
 
 
 @dataclass(frozen=True)
