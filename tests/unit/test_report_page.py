@@ -238,6 +238,12 @@ def test_one_contact_that_made_a_run_slow_is_named_once(tmp_path: Path) -> None:
     assert said.count("pad") == 1
 
 
+def test_a_guard_that_leaves_the_zone_as_it_was_is_no_change(tmp_path: Path) -> None:
+    said = slowest(changed(tmp_path, ("pad", "held", "forward", 6), ("bend", "inner", "inner", 40)))
+    assert "bend" not in said
+    assert "Only pad changed zone, 6 times" in said
+
+
 def test_a_panel_that_nobody_asked_for_draws_none_flat_beside_another(tmp_path: Path) -> None:
     reaches = {"roll.left": 500.0, "roll.radius": 0.3, "edge.x": 260.0, "core.radius": 0.2, "web.x": 90.0, "rest.x": 0}
     run = RunDirectory.create(tmp_path / "run", [Signal(name, "m", "") for name in reaches], {})

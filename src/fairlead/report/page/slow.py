@@ -129,13 +129,14 @@ def _percent(n: int, total: int) -> str:
 
 
 def _counted(result: Result) -> tuple[Counter[str], Counter[str], dict[str, set[str]]]:
-    """Zone changes by part and by kind, and the zones of each part."""
+    """Zone changes by part and by kind, and the zones of each part; guards that left the zone as it was change none."""
     zones: dict[str, set[str]] = defaultdict(set)
-    for event in result.events:
+    changes = [event for event in result.events if event.zone_from != event.zone_to]
+    for event in changes:
         zones[event.component] |= {event.zone_from, event.zone_to}
-    counts = Counter(event.component for event in result.events)
+    counts = Counter(event.component for event in changes)
     kind = kinds_of(list(counts))
-    return counts, Counter(kind[event.component] for event in result.events), zones
+    return counts, Counter(kind[event.component] for event in changes), zones
 
 
 def _sentence(run: dict[str, Any], counts: Counter[str], kinds: Counter[str], zones: Mapping[str, set[str]]) -> str:
