@@ -5,7 +5,7 @@ import pytest
 
 import fairlead
 from fairlead.analysis.cost.compared_outputs import recorded, recorded_of_meshes
-from fairlead.analysis.cost.deviation import output_errors, switching
+from fairlead.analysis.cost.deviation import output_errors, scales, switching
 from fairlead.analysis.cost.kept_runs import KeptRuns, key_of
 from fairlead.analysis.cost.ladder import Ladder, other_equations
 from fairlead.analysis.cost.meshes import correspondence, meshes
@@ -198,3 +198,9 @@ def test_a_wrong_settings_file_is_told_by_line(tmp_path, text, told):
 def test_a_settings_file_that_is_not_there_is_told(tmp_path):
     with pytest.raises(UsageError, match="No such file"):
         read_settings(tmp_path / "none.yaml")
+
+
+def test_what_moves_by_rounding_alone_has_no_range():
+    """A block that is held creeps by 1e-18 m: no difference of two runs is a share of that."""
+    values = np.stack([1e-18 * T, 2.5 * T, 5.0 + 1e-14 * T, 1e-9 * T], axis=1)
+    assert scales(["block.x", "pad.friction", "far.x", "slow.x"], values) == pytest.approx([0.0, 2.5, 0.0, 1e-9])

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from fairlead.results.signal import family
 
 LEAST_SCALE = 1e-12  # relative to the values themselves: below it an output is constant
+NOTHING = 1e-15  # SI: a range that is no motion, force or flow of anything
 ROUNDING = 1e-9  # of the largest range in its unit: what varies less, as the slip of a contact that holds, is rounding
 Events = Sequence[tuple[float, str, str, str]]
 
@@ -103,7 +104,7 @@ def scales(names: Sequence[str], values: NDArray[np.float64]) -> list[float]:
         if np.all(np.isfinite(one)):
             ranges[family(name)[0]] = max(ranges[family(name)[0]], float(np.ptp(one)))
             size[family(name)[0]] = max(size[family(name)[0]], float(np.abs(one).max()))
-    kept = {key: value if value > LEAST_SCALE * size[key] else 0.0 for key, value in ranges.items()}
+    kept = {key: value if value > max(LEAST_SCALE * size[key], NOTHING) else 0.0 for key, value in ranges.items()}
     return [kept.get(family(name)[0], 0.0) for name in names]
 
 
