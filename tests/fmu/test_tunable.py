@@ -223,6 +223,23 @@ interface: {outputs: {place: hand.x}, tunable: {speed: hand.velocity, stiffness:
     assert {one.name: one.when for one in found} == {"speed": BEFORE, "stiffness": ALWAYS}
 
 
+def test_a_parameter_beside_its_bound_can_be_set(tmp_path):
+    """A tenth more than an efficiency of 0.95 is none: the model is asked for values that it takes."""
+    text = """
+components:
+  motor: {type: Inertia, moment: 0.1 kg*m^2}
+  gear: {type: LossyGear, ratio: 0.5, efficiency: 0.95}
+  load: {type: Inertia, moment: 0.1 kg*m^2}
+  torque: {type: TorqueSource, torque: 1 N*m}
+connections: [[motor.shaft, gear.a, torque.shaft], [gear.b, load.shaft]]
+run: {stop: 1 s}
+interface: {outputs: {speed: load.speed}, tunable: {share: gear.efficiency}}
+"""
+    (found,) = made_of(asked_of(model(tmp_path, "gear", text), (), (), (), {}, "export")).tuned
+    assert found.when == ALWAYS
+    assert found.low < 0.95 == found.high
+
+
 def test_a_speed_at_the_start_is_set_before_it_only():
     """It is the size of its own error as well, which is that of the start."""
     needs_compiler()

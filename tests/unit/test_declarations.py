@@ -54,6 +54,18 @@ REFUSED = {
         "def law(p, a, b):\n    return (0,)",
         "law asks for 'b'; known: ['a', 'direction', 'p', 't', 'zone']",
     ),
+    "words for where nothing is left, of an output that does not tell": (
+        f"left = Output('kg', 'Left.', gone=('is empty', 'Fill it.'))\n{LAW}",
+        "'left' has `gone`, which an output of role used_up says",
+    ),
+    "a start of what a law gives": (
+        f"said = Output('1', 'Said.', start=1.0)\n{LAW}",
+        "'said' has a start; its law gives it from the start on, so only a Controller has one",
+    ),
+    "a start by a name that nothing has": (
+        f"said = Output('1', 'Said.', start='begin')\n{LAW}",
+        "'said' starts with 'begin': neither a number nor a parameter of the class",
+    ),
     "no law at all": ("", "zone 'always' has no law"),
     "a parameter called law, and no law": ("law = Parameter('N')", "zone 'always' has no law"),
     "a direction that zones do not tell": (

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Protocol
 
 from fairlead.component.answers import COMPOSITE, EVERYWHERE, Answers
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import ROLES, Discrete, State
+from fairlead.component.declare import ROLES, USED_UP, Discrete, Output, State
 from fairlead.component.defaults import misfits, odd_kinds
 from fairlead.component.given import Block, Table
 from fairlead.component.kinds_of_answers import arguments_of
@@ -66,6 +66,7 @@ def check(cls: type[Declaring], sort: str) -> None:
         demand(cls, known, f"{name!r} is of {output.of!r}, which is no output of the class")
         known = output.rounded_by in ("", *has.parameters)
         demand(cls, known, f"{name!r} is rounded by {output.rounded_by!r}, which is no parameter of the class")
+        _check_words(cls, name, output)
         clash = name in {**has.ports, **has.states, **has.unknowns, **has.inputs, **has.discrete}
         demand(cls, not clash, f"the output {name!r} has the name of a port, an input or an unknown of the class")
     _check_named_numbers(cls)
@@ -133,6 +134,16 @@ def _check_mirrors(cls: type[Declaring]) -> None:
         asks = "direction" in arguments_of(mark.function)
         more = f"def {name}(p, ..., direction), +1 as written and -1 in its mirror"
         demand(cls, asks, f"guard {name!r} is mirrored, and does not ask for the direction: {more}")
+
+
+def _check_words(cls: type[Declaring], name: str, output: Output) -> None:
+    """What an output says where nothing is left, and what it is before the first sample."""
+    fits = output.gone is None or output.role == USED_UP
+    demand(cls, fits, f"{name!r} has `gone`, which an output of role {USED_UP} says")
+    begins = isinstance(output.start, int | float) or output.start in cls.declaration.parameters
+    demand(cls, begins, f"{name!r} starts with {output.start!r}: neither a number nor a parameter of the class")
+    sampled = output.start == 0.0 or cls.answers.sample is not None
+    demand(cls, sampled, f"{name!r} has a start; its law gives it from the start on, so only a Controller has one")
 
 
 def _check_units(cls: type[Declaring]) -> None:

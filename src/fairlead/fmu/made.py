@@ -92,8 +92,6 @@ def _with_outputs(netlist: Netlist, system: System, outputs: Iterable[str]) -> N
     return dataclasses.replace(netlist, interface=interface)
 
 
-ANOTHER = 1.1
-"""Times its own value: another one of a parameter, which exports take."""
 LOOKS = (0.13, 0.37, 0.61, 0.83)
 """Shares of a run at which it is asked whether a place follows a parameter; no period of anything."""
 
@@ -114,16 +112,15 @@ def made_of(asked: Asked) -> Made:
         return laid(other.memory, other.problem, code.numbers, moved)
 
     found, tuned = with_parameters(asked.tunable, lay, opened)
-    moving = {one.name for one in asked.tunable if _moves_at_once(asked, one)}
-    tuned = [before_the_start(one) if one.name in moving else one for one in tuned]
+    moved = [_moves_at_once(asked, inside.of, one) for inside, one in zip(asked.tunable, tuned, strict=True)]
+    tuned = [before_the_start(one) if moves else one for one, moves in zip(tuned, moved, strict=True)]
     image = image_of(opened.memory, opened.problem, found)
     return Made(opened, image, code, variables, tuned, _token(image, code, variables, tuned))
 
 
-def _moves_at_once(asked: Asked, parameter: Variable) -> bool:
-    """True if another value, during the run, would move at once what moves as given."""
-    value = parameter.start or 0.0
-    other = asked.model.with_values({parameter.of: ANOTHER * value})
+def _moves_at_once(asked: Asked, inside: str, parameter: Tuned) -> bool:
+    """True if another value that it takes would, during the run, move at once what moves as given."""
+    other = asked.model.with_values({inside: parameter.low if parameter.low < parameter.value else parameter.high})
     begin, end = asked.settings.start, asked.settings.stop
     times = (begin + share * (end - begin) for share in LOOKS)
     return any(moved_at_once(asked.model.system, other.system, t) for t in times)

@@ -40,11 +40,10 @@ from fairlead.integrate.codes import (
     WIDEN,
 )
 from fairlead.integrate.events.arrival import arrive, settle_here, start
-from fairlead.integrate.events.given_up import settle_at_start
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.memory.foreign import compiled, memory_at
-from fairlead.integrate.one_step import OneStep, trial_of
+from fairlead.integrate.one_step import OneStep, mend_point, trial_of
 from fairlead.integrate.record.rows import record_piece, there_is_room
 
 
@@ -92,7 +91,8 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                 attempts -= 1
                 status = attempt(m)
                 if status > FINISHED and begins_without_answer(m, status):
-                    status = settle_at_start(m)
+                    mend_point(m)
+                    status = GO_ON
             elif run.phase == RECORD:
                 status = write_piece(m)
             elif run.phase == ARRIVE:
@@ -129,10 +129,7 @@ def begins_without_answer(m, status):
 
     What `stepping` has of forces at the end of a step is extrapolated, beyond the corner by what it is off.
     """
-    if m.problem.n_pressing == 0 or m.run.judged == 1:
-        return False
-    m.events.guards.n_fired = 0
-    return status in (SINGULAR_MATRIX, STEP_FLOOR)
+    return m.problem.n_pressing > 0 and m.run.judged == 0 and status in (SINGULAR_MATRIX, STEP_FLOOR)
 
 
 @compiled
