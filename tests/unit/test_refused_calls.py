@@ -145,6 +145,8 @@ def test_a_value_that_no_model_has_makes_a_refused_row(cases, values, says):
         (lambda m: m.run(stop=-1), "run.stop = -1 s is not after start = 0 s Give a stop above the start"),
         (lambda m: m.run(start=5, stop=1), "run.stop = 1 s is not after start = 5 s Give a stop above the start"),
         (lambda m: m.start(stopp=3), "Model.start: run has no key stopp Did you mean stop?"),
+        (lambda m: m.start(inptus=["x"]), "Model.start: run has no key inptus Did you mean inputs?"),
+        (lambda m: m.run(proffile=True), "Model.run: run has no key proffile Did you mean profile?"),
         (lambda m: fairlead.run("belt", stopp=3), "run: run has no key stopp"),
         (lambda m: fairlead.run(3, out=None), "run: path = 3 is not a path"),
         (lambda m: fairlead.run("belt", {"block.mass": None}, out=None), "run: set[block.mass] = None is neither"),

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypedDict
 
 import numpy as np
 
-from fairlead.errors import Fault, Location, ModelError, shown
+from fairlead.errors import Fault, Location, ModelError, did_you_mean, shown
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.settings import RecordSettings, RunSettings, Strict
 from fairlead.netlist.translate import validate
@@ -18,6 +18,12 @@ from fairlead.netlist.translate import validate
 FRICTION = ("hold", "karnopp", "binding", "tanh", "arctan", "root", "reset_integrator", "dahl", "lugre",
             "elastoplastic", "maxwell_slip")  # fmt: skip
 """Treatments of friction of the bundled laws, which are no methods of an engine."""
+OWN = {
+    "Model.run": ("out", "force", "progress", "profile", "check"), "Model.start": ("inputs", "tunable"),
+    "export": ("file", "version", "inputs", "outputs", "tunable"),
+    "export_library": ("folder", "inputs", "outputs", "tunable"),
+}  # fmt: skip
+"""What a call takes beside settings of a run, for who mistypes it."""
 Quantity = float | str
 """A number in SI, or a text with its unit: `5.0` or `"5 s"`."""
 
@@ -51,7 +57,7 @@ def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: C
     `parameters` are those of the scene: who gives one here is told where it goes. `called` is the call.
     """
     place = Location(called)
-    strays = {name: Fault(place, *said) for name, *said in _strays(given, parameters)}
+    strays = {name: Fault(place, *said) for name, *said in _strays(given, parameters, OWN.get(called, ()))}
     known = {name: value for name, value in given.items() if name not in strays}
     made, faults = validate(_Block, _written({"run": settings.model_dump() | known}, place))
     if made is None or strays:
@@ -59,8 +65,13 @@ def with_keywords(settings: RunSettings, given: Mapping[str, Any], parameters: C
     return made.run
 
 
-def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[tuple[str, str, str]]:
-    """What is no setting of a run, but of its record, of friction, of the scene or of a part: name, what, way out."""
+def _strays(
+    given: Mapping[str, Any], parameters: Collection[str], own: Collection[str]
+) -> Iterator[tuple[str, str, str]]:
+    """What is no setting of a run, but of its record, of friction, of the scene, of a part or the call itself.
+
+    Each with its name, what it is not, and a way out.
+    """
     for name, value in given.items():
         if name == "method" and isinstance(value, str) and value in FRICTION:
             what = f"run.method = {value} is a treatment of friction, not a method of the engine"
@@ -75,8 +86,10 @@ def _strays(given: Mapping[str, Any], parameters: Collection[str]) -> Iterator[t
             way_out = f"It is a parameter of the scene: model.with_values({name}={shown(repr(value))}).run()."
         elif "." in name:
             way_out = f"What a part has is given before: model.with_values({{{name!r}: {shown(repr(value))}}}).run()."
-        else:
+        elif did_you_mean(name, RunSettings.model_fields) or not (near := did_you_mean(name, own)):
             continue
+        else:
+            way_out = near
         yield name, f"run has no key {name}", way_out
 
 
