@@ -9,7 +9,16 @@ import numpy as np
 from fairlead.analysis.record.remedy import budget
 from fairlead.analysis.remarks.light_rebounds import light_rebounds
 from fairlead.analysis.remarks.overlaps import overlaps
-from fairlead.analysis.treatments.stepping_table import INSIDE, beyond, few, handling, most_located, refusal, remark
+from fairlead.analysis.treatments.stepping_table import (
+    INSIDE,
+    beside_contacts,
+    beyond,
+    few,
+    handling,
+    most_located,
+    refusal,
+    remark,
+)
 from fairlead.choice import choose
 from fairlead.errors import Fault, ModelError
 from fairlead.integrate import Run
@@ -33,6 +42,8 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "
     engine, reason = choose(contacts, smooth, settings.accuracy)
     if engine == "stepping" and ((found := handling(system, settings)).way != INSIDE or found.of.auto):
         return "rodas", f"auto: it locates every switch, and {found.why}"
+    if engine == "stepping" and (other := beside_contacts(system)) is not None:
+        return "rodas", f"auto: it locates every switch, and {other}"
     return engine, reason
 
 

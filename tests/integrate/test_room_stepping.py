@@ -87,10 +87,10 @@ def turned():
 
 
 @functools.cache
-def speed_off():
+def state_off():
     from fairlead.integrate.stepping import other_zones
 
-    return entry(other_zones.speed_off, ("problem", "point", "linear.matrices"), "dd", "i")
+    return entry(other_zones.state_off, ("",), "ddd", "i")
 
 
 @functools.cache
@@ -274,9 +274,9 @@ def test_forces_of_other_zones_count_where_the_speed_and_the_place_they_lead_to_
         at = one_body(
             stiffness, weights=(OF_PLACE, of_speed, OF_FORCE), x=[0.0, 5.0, 1.0], f=[0.0, 5.0 + force, 2.0],
             position_of=[-1, 0, -1], mass=[1.0, MASS], mass_starts=[0, 1, 2, 2], mass_rows=[0, 1],
-            numbers={"n_mass": 2},
+            numbers={"n_mass": 2, "theta_now": 0.5}, differential=[1, 1, 0], holder=[-1, -1, 0],
         )  # fmt: skip
-        assert speed_off()(at, lasting, per_mean) == (1 if counts else -1)
+        assert state_off()(at, H, lasting, per_mean) == (1 if counts else -1)
 
 
 def test_a_force_that_is_missed_leaves_a_speed_or_the_way_a_spring_allows_it():

@@ -1,6 +1,6 @@
 """What `stepping` does with a class of scenes is what its table says: refused by name, landed on, or inside steps."""
 
-import contextlib
+import math
 
 import pytest
 
@@ -15,7 +15,7 @@ from fairlead.analysis.treatments.stepping_table import (
     most_located,
 )
 from fairlead.engine import engine_of
-from fairlead.errors import ModelError, RunWarning, UsageError
+from fairlead.errors import ModelError, UsageError
 from fairlead.integrate import Run
 
 MANY = FEW + 5
@@ -44,7 +44,7 @@ def row(count, contact, engine="stepping", more="", joined=""):
         (FEW, FALLING, "", "", LANDED, "rub0"),
         (MANY, LEVEL, "", "", INSIDE, ""),
         (MANY, FALLING, "", "", INSIDE, "rub0"),
-        (MANY, f"{FALLING}, method: karnopp", "", "", INSIDE, "rub0"),
+        (MANY, f"{LEVEL}, method: karnopp", "", "", LANDED, "rub0"),
         (MANY, f"{LEVEL}, method: binding", "", "", LANDED, "rub0"),
         (MANY, f"{LEVEL}, method: tanh", "", "", INSIDE, ""),
         (MANY, LEVEL, SWING, "[source.signal, rub3.normal]", LANDED, "rub3"),
@@ -127,16 +127,65 @@ def test_auto_takes_stepping_from_a_hundred_contacts_on_where_switches_may_be_in
     assert engine == ("stepping" if serves and count >= 100 else "rodas")
 
 
-@pytest.mark.parametrize(("engine", "told"), [("stepping", True), ("rodas", False)])
-def test_what_follows_time_at_once_is_told_to_be_a_mean(engine, told, simulate):
-    """The current through a resistor at an alternating voltage: no accuracy makes the steps of `stepping` shorter."""
-    said = pytest.warns(RunWarning, match=r"(?s)load\.plus\.voltage.*rodas")
-    with said if told else contextlib.nullcontext():
-        simulate(f"""
-        components:
-          mains: {{type: VoltageSource, voltage: {{sine: {{amplitude: 20 V, frequency: 50 Hz}}}}}}
-          load: {{type: Resistor, resistance: 10 ohm}}
-          earth: {{type: Earth}}
-        connections: [[mains.plus, load.plus], [mains.minus, load.minus, earth.terminal]]
-        run: {{stop: 0.1 s, engine: {engine}}}
-        """)
+MAINS = """
+components:
+  mains: {{type: VoltageSource, inner: 1 mohm, voltage: {{sine: {{amplitude: 20 V, frequency: 50 Hz}}}}}}
+  load: {{type: Resistor, resistance: 10 ohm}}
+  earth: {{type: Earth}}
+connections: [[mains.plus, load.plus], [mains.minus, load.minus, earth.terminal]]
+run: {{stop: 0.1 s, engine: {engine}}}
+"""
+
+
+def test_what_follows_time_at_once_is_refused(scene):
+    """The current through 1 mohm behind an alternating voltage: a mean of the voltage over a step, times 1000."""
+    with pytest.raises(ModelError, match=r"(?s)load\.plus\.voltage.*rodas"):
+        scene(MAINS.format(engine="stepping")).check()
+    model = scene(MAINS.format(engine="auto"))
+    assert model.check() == []
+    assert engine_of(model.netlist.run, model.system)[0] == "rodas"
+
+
+def test_a_node_without_inertia_at_a_given_motion_has_the_tension_of_its_neighbours(simulate):
+    """Two springs in series: their tensions are equal, also beside many contacts."""
+    more = (
+        "wave: {type: MotionSource, velocity: {sine: {amplitude: 0.1 m/s, frequency: 1 Hz}}}\n"
+        "  stiff: {type: SpringDamper, stiffness: 1e6 N/m, damping: 10 N*s/m}\n"
+        "  soft: {type: SpringDamper, stiffness: 500 N/m, damping: 1 N*s/m}"
+    )
+    joined = "[wave.flange, stiff.a]\n  - [stiff.b, soft.a]\n  - [soft.b, floor.flange]"
+    result = simulate(row(MANY, LEVEL, "stepping", more, joined).replace("stop: 0.1 s", "stop: 1 s"))
+    most = 500 * 0.1 / 3.14  # N: the amplitude of the motion times the soft spring
+    for t in (0.13, 0.4, 0.77, 0.95):
+        assert result.at("stiff.tension", t) == pytest.approx(result.at("soft.tension", t), abs=0.02 * most)
+
+
+BESIDE = {
+    "oil": ("volume: {type: Volume, volume: 1 l}\n  leak: {type: Leak, conductance: 1e-10 m^3/s/Pa}\n"
+            "  tank: {type: Tank}", "[volume.port, leak.a]\n  - [leak.b, tank.port]"),
+    "a relay": (f"{RELAY}", "[m5.v, relay.value]"),
+    "an integral": ("sum: {type: Integrator}", "[m5.v, sum.value]"),
+    "a sensor": ("sensor: {type: MotionSensor}", "[m5.flange, sensor.flange]"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "serves"), [("oil", False), ("a relay", False), ("an integral", False),
+                                               ("a sensor", True)])  # fmt: skip
+def test_auto_takes_stepping_for_bodies_springs_and_contacts_alone(what, serves, scene):
+    more, joined = BESIDE[what]
+    model = scene(row(100, LEVEL, "auto", more, joined))
+    assert engine_of(model.netlist.run, model.system)[0] == ("stepping" if serves else "rodas")
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
+def test_a_pressure_whose_integral_is_kept_has_an_error_of_its_own(accuracy, simulate):
+    """A volume empties through a leak, p = p0 + (p1 - p0) exp(-t/T), beside contacts at rest that allow any step."""
+    more = (
+        "volume: {type: Volume, volume: 1 l, pressure: 11 bar, fluid: {fluid: oil, bulk_modulus: 1e9 Pa}}\n"
+        "  leak: {type: Leak, conductance: 1e-11 m^3/s/Pa}\n  tank: {type: Tank}"
+    )
+    text = row(MANY, LEVEL, "stepping", more, "[volume.port, leak.a]\n  - [leak.b, tank.port]")
+    result = simulate(text.replace("stop: 0.1 s", "stop: 0.5 s"), **{"run.accuracy": accuracy})
+    last = 1e-3 / 1e9 / 1e-11  # s, T
+    for t in (0.05, 0.13, 0.3, 0.5):
+        assert result.at("volume.pressure", t) == pytest.approx(1e5 + 1e6 * math.exp(-t / last), abs=accuracy * 1.1e6)

@@ -27,6 +27,14 @@ class Facts(Protocol):
         """
 
     @property
+    def bodies(self) -> Booleans:
+        """[n]: speeds of bodies, whose rates jump with every contact that is caught or let go.
+
+        Inside its steps `stepping` judges the positions that they lead to in their place. A pressure or a signal of
+        which a law keeps the integral is no such speed.
+        """
+
+    @property
     def gauge(self) -> Booleans:
         """[n]: unknowns of which one may be chosen at will: their values do not count as errors."""
 
@@ -207,6 +215,11 @@ class Plain:
     def stiff(self) -> Booleans:
         """None is."""
         return np.zeros(len(self.initial), dtype=bool)
+
+    @property
+    def bodies(self) -> Booleans:
+        """Every unknown that another is the integral of."""
+        return np.ones(len(self.initial), dtype=bool)
 
     @property
     def gauge(self) -> Booleans:

@@ -40,7 +40,8 @@ BLOCKED = 1e300
 
 CARRIED = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "quadratures_off", "grid_next", "stalls",
-    "total_events", "stop_asked", "failed", "localising", "locates", "damps", "driven", "t", "h", "h_wanted", "h_next",
+    "total_events", "stop_asked", "failed", "localising", "locates", "damps", "always_locates",
+    "locates_for", "driven", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
     "theta_raise", "gap", "gap_before", "t_cut", "t_kink", "growth", "t_growth", "swing_step", "allowed",

@@ -334,9 +334,9 @@ def _longest_step(run: Run, problem: Instance) -> float:
 
 
 def controlled(problem: Problem) -> Integers:
-    """1 for unknowns whose error sets the step: differential, and no speed that has a position."""
+    """1 for unknowns whose error sets the step: differential, and no speed of a body that has a position."""
     chosen = np.asarray(problem.differential & ~problem.quadrature, np.int64)
-    chosen[position_of(problem) >= 0] = 0
+    chosen[(position_of(problem) >= 0) & problem.bodies] = 0
     return chosen
 
 

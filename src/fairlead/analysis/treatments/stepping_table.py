@@ -18,10 +18,11 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from fairlead.component.base import Component, Family
+from fairlead.component.keys import PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
-from fairlead.system.active.timed_limits import switched_limits, timed_limits
+from fairlead.system.active.timed_limits import switched_limits, timed_limits, timed_rows
 from fairlead.system.compiled.named_parts import (
     at_nodes_without_inertia,
     between_mass_and_none,
@@ -30,6 +31,7 @@ from fairlead.system.compiled.named_parts import (
 )
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.contact_cycles import moved_apart
+from fairlead.system.numbering.unknowns import Unknown
 
 Way = Literal["inside", "landed", "refused"]
 INSIDE: Way = "inside"
@@ -94,6 +96,32 @@ def _switched(system: System, settings: RunSettings) -> Iterable[str]:
     return switched_limits(system)
 
 
+def _latched(system: System, settings: RunSettings) -> Iterator[str]:
+    """Contacts that break away into a zone of its own, which lasts until they slip faster than they stick."""
+    for block in system.blocks:
+        kind = block.kernel.variant.type
+        if block.kernel.structure.holds and issubclass(kind, Component) and kind.declaration.zones.latched:
+            yield from (one.path for one in block.instances)
+
+
+def _carried(system: System, settings: RunSettings) -> Iterator[str]:
+    """Nodes without inertia that feel a motion given in time."""
+    return (unknown.name for unknown in _balancing(system, settings) if unknown.kind == "rate")
+
+
+def _followed_at_once(system: System, settings: RunSettings) -> Iterator[str]:
+    """Voltages, pressures and the like that balance what is given in time, and have no rate and no inertia."""
+    return (unknown.name for unknown in _balancing(system, settings) if unknown.unit in OF_NODES)
+
+
+def _balancing(system: System, settings: RunSettings) -> Iterator[Unknown]:
+    """Unknowns without a rate that no contact holds, whose balance reads something given in time that varies."""
+    free = ~system.differential & (system.holder < 0) & ~system.quadrature
+    if free.any():
+        at_once = free & timed_rows(system, settings.start, settings.stop)
+        yield from (system.numbering.unknowns[k] for k in np.flatnonzero(at_once))
+
+
 def _apart(system: System, settings: RunSettings) -> Iterable[str]:
     """Contacts whose friction falls, in a ring that holds bodies to motions that are given and are not the same.
 
@@ -127,12 +155,20 @@ TABLE: tuple[Class, ...] = (
           lambda system, _: rigid_stops(system),
           "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
           "it locates the instants at which rigid stops are met"),
+    Class("voltages, pressures and the like of nodes that store nothing, beside a quantity given in time", REFUSED,
+          "stepping knows what balances a quantity in time at once ({}) as its means over steps, and a law that reads "
+          "it beside that quantity multiplies the difference", _followed_at_once,
+          auto="a voltage, a pressure or the like follows a quantity in time at once"),
+    Class("nodes without inertia that feel a motion given in time", LANDED,
+          "the speed of {} follows a motion given in time at once", _carried),
     Class("limits of friction given in time that turn ten times and more", LANDED,
           "the force limit of {} varies in time, so that it may be passed and kept again inside a step", _swung),
     Class("limits of friction that follow a signal which switches (a relay, a state machine)", LANDED,
           "the force limit of {} jumps with a signal that switches, at an instant inside a step", _switched),
     Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
           "the laws of {} turn within a slip of nearly nothing", _bending),
+    Class("contacts with a zone of their own from break-away until they slip faster than a speed (karnopp)", LANDED,
+          "{} have a zone that lasts for a moment after they break away", _latched),
     Class("friction that falls as a contact lets go, of contacts that hold a body to motions that are given and move "
           "apart", LANDED, "which of {} lets go is decided where what they hold to moves apart", _apart),
     Class("limits of friction given in time that turn less often", INSIDE,
@@ -175,6 +211,23 @@ def beyond(system: System, settings: RunSettings) -> str | None:
     return next((one.auto for one in refused if any(True for _ in one.parts(system, settings))), None)
 
 
+def beside_contacts(system: System) -> str | None:
+    """Why `auto` leaves to `rodas` what has switches inside the steps of `stepping`: what else there is in the scene.
+
+    Of a scene of bodies, contacts and springs the cost at equal error was measured (fairlead/choice.py), of others not.
+    """
+    if system.numbering.circles:
+        return "contacts close circles"
+    if any(unknown.kind == "potential" for unknown in system.numbering.unknowns):
+        return "not all of the scene is mechanics"
+    for block in system.blocks:
+        s = block.kernel.structure
+        tells = not any(key(target).kind == PORT for target in s.targets)
+        if tells and (len(s.zones) > 1 or s.targets):
+            return f"{block.instances[0].path} tells signals, and has zones or states"
+    return None
+
+
 def refusal(system: System, settings: RunSettings) -> Fault | None:
     """Why `stepping`, asked for by name, does not run this scene; None where it does."""
     if settings.engine != "stepping":
@@ -192,16 +245,6 @@ def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     found = handling(system, settings)
     if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
-    if means := _followed_at_once(system):
-        what = f"laws that read what follows a quantity in time at once ({few(means)}) get its means over steps"
-        yield Fault(_where(system, [means[0].rpartition(".")[0].rpartition(".")[0]]), f"run.engine: {what}.", WAY_OUT)
-
-
-def _followed_at_once(system: System) -> list[str]:
-    """Voltages, pressures and the like that balance what is given in time, and have no rate and no inertia."""
-    free = ~system.differential & system.timed & (system.holder < 0) & ~system.quadrature
-    unknowns = system.numbering.unknowns
-    return [unknowns[k].name for k in np.flatnonzero(free) if unknowns[k].unit in OF_NODES]
 
 
 def most_located(system: System, settings: RunSettings) -> int:

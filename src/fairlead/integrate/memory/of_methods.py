@@ -33,7 +33,9 @@ TABLEAU = Struct(
 RULE = Struct(
     copies=("n", "quadrature",),
     integers=(
-        "locates",  # steps end at every switch, and have the zones of their start: set once a run (engine.py)
+        "locates",  # steps end at every switch, and have the zones of their start
+        "always_locates",  # they do in the whole run (engine.py)
+        "locates_for",  # settlements until they no longer do (repeated.find_latch_ahead)
         "linearised",  # J and M are those of the zones they were last evaluated in; 0: evaluate them anew
         "failed",  # above 0 for some steps after one that was not solved: no fronts are expected. Fixed: halves to go
         "localising",  # tries so far to end the step where a law jumps
@@ -65,7 +67,7 @@ RULE = Struct(
         "kick_first": "n", "kick_second": "n",  # and what it adds in the two solves that move the end (third_order.py)
     },
     indices={
-        "controlled": "n",  # 1 for unknowns whose third difference sets the step: differential, no speed of a position
+        "controlled": "n",  # 1 for unknowns whose third difference sets the step: differential, no speed of a body
     },
 )  # fmt: skip
 """`stepping`: the theta rule and its steps."""
@@ -151,6 +153,7 @@ CONTACTS = Struct(
         "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
         "switched": "n_machines",  # machines that left their zone in the step, with a place for it
         "neighbour_starts": "n_machines_plus_1", "neighbours": "n_neighbours",  # by machine: who is handed its load
+        "latches": "n_machines",  # 1 for machines that only tell signals and remember, as a relay
         "own_kind": "n_machines",  # machines of one number have the same laws and rows alike
         "only_kinks": "n_machines",  # 1 for machines that are but pieces of continuous tables
     },

@@ -21,7 +21,7 @@ def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
         "samples": int(problem.samples), "t_kink": -NEVER,
         "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
-        "locates": int(locates), "damps": int(not locates and np.any(problem.falls)),
+        "locates": int(locates), "always_locates": int(locates), "damps": int(not locates and np.any(problem.falls)),
     }  # fmt: skip
 
 

@@ -54,7 +54,7 @@ def neighbours(problem: Problem) -> dict[str, Integers]:
     row[holder[held[::-1]]] = held[::-1]
     return {
         "may_jump": limits if limits.any() else np.ones(len(limits), dtype=np.int64),
-        "first_guard": first, "hold_row": row,
+        "first_guard": first, "hold_row": row, "latches": machines_with(problem.latch_guard, problem),
         "neighbour_starts": np.cumsum([0, *map(len, found)]).astype(np.int64),
         "neighbours": np.array([w for others in found for w in others], dtype=np.int64),
     }  # fmt: skip
@@ -98,6 +98,12 @@ def own_kinds(problem: Problem, slopes: Integers, masses: Integers) -> Integers:
     numbers: dict[tuple[int, ...], int] = {}
     shapes = zip(laws.tolist(), slopes.tolist(), masses.tolist(), strict=True)
     return np.array([numbers.setdefault(shape, len(numbers)) for shape in shapes], dtype=np.int64)
+
+
+def machines_with(guards: Integers, problem: Problem) -> Integers:
+    """[nz]: 1 for machines one of whose guards is marked."""
+    machine, marked = np.asarray(problem.guard_machine), np.asarray(guards, dtype=bool)
+    return (np.bincount(machine[(machine >= 0) & marked], minlength=len(problem.zones)) > 0).astype(np.int64)
 
 
 def only_kinks(problem: Problem) -> Integers:

@@ -6,6 +6,7 @@ The zones in force are kept in `zones_probed` meanwhile, and are the same afterw
 from __future__ import annotations
 
 from fairlead.integrate.linear.products import inertia_of
+from fairlead.integrate.linear.systems import solve_motion
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals, switch_at
 from fairlead.integrate.stepping.response import response_of
 
@@ -38,33 +39,66 @@ def forces_if_switched(problem, point, guards, contacts, t, at_y, at_switched, c
 
 
 @compiled
-def forces_in_zones(problem, point, contacts, t, at_y, at_other):
-    """Into `x` f at (t, y), into `f` the same in the zones at `at_other`."""
-    zones, kept = (
-        indices(problem.at_zones, problem.n_machines), indices(contacts.at_zones_probed, problem.n_machines),
+def forces_before_switches(problem, point, contacts, most):
+    """Into `x` f at the start of the step, into `f` the same in the zones that machines had there.
+
+    All of them, or where `most` is below one those that hold no row and left their zone in that first share of it.
+    """
+    zones, kept = indices(problem.at_zones, problem.n_machines), indices(contacts.at_zones_probed, problem.n_machines)
+    before, hold_row = (
+        indices(contacts.at_zones_at_start, problem.n_machines), indices(contacts.at_hold_row, problem.n_machines),
     )  # fmt: skip
-    field_at(problem.call_forces, (problem.context, t, at_y, point.at_x))
+    after = reals(contacts.at_switched_after, problem.n_machines)
+    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
     copy(zones, kept)
-    copy(indices(at_other, problem.n_machines), zones)
-    field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
+    for z in range(problem.n_machines):
+        if most >= 1.0 or (hold_row[z] < 0 and 0.0 < after[z] < most):
+            zones[z] = before[z]
+    field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_f))
     copy(kept, zones)
     problem.rhs += 2
 
 
 @compiled
-def speed_off(problem, point, matrices, lasting, per_mean):
-    """The first speed that is off by more than a weight where forces are `x` instead of `f` for that time; -1: none.
+def state_off(m, h, lasting, per_mean):
+    """The first state that is off by more than a weight where forces are `x` instead of `f` for that time; -1: none.
 
-    Their difference is `per_mean` times its mean over the time. The speed and the position that follows from it have to
-    be off: the lesser error counts (response.py).
+    Their difference is `per_mean` times its mean over the time. What a row with inertia gets changes its state at once;
+    what one without gets reaches states by the factors of the step. A speed and the position that follows from it have
+    to be off: the lesser error counts (response.py). Quadratures go by the states.
     """
-    one, other = reals(point.at_x, problem.n), reals(point.at_f, problem.n)
-    weight, position = reals(point.at_weight, problem.n), indices(problem.at_position_of, problem.n)
-    for v in range(problem.n):
-        x = position[v]
-        inertia = inertia_of(matrices, v) if x >= 0 and one[v] != other[v] else 0.0
-        if inertia > 0.0:
-            error = lasting * abs(other[v] - one[v]) / (per_mean * inertia)
-            if min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x]) > 1.0:
-                return v
+    problem, point, matrices = m.problem, m.point, m.linear.matrices
+    n = problem.n
+    one, other, off = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n)
+    weight, position = reals(point.at_weight, n), indices(problem.at_position_of, n)
+    differential, quadrature = indices(problem.at_differential, n), indices(problem.at_quadrature, n)
+    holder = indices(problem.at_holder, n)
+    share, passed_on, any_off = lasting / (per_mean * h), False, False
+    for k in range(n):
+        off[k] = 0.0
+        if one[k] != other[k] and quadrature[k] == 0:
+            any_off = True
+            if differential[k] == 0 and holder[k] < 0:
+                off[k] = share * (other[k] - one[k])
+                passed_on = True
+    if not any_off:
+        return -1
+    if passed_on:
+        solve_motion(m.linear, point.at_b)
+        for v in range(n):
+            if position[v] >= 0:
+                off[position[v]] = 0.0
+    for v in range(n):
+        if differential[v] == 0 or quadrature[v] == 1:
+            continue
+        inertia, x = inertia_of(matrices, v), position[v]
+        if inertia <= 0.0:
+            continue
+        error = abs(off[v] / m.stepping.rule.theta_now + h * share * (other[v] - one[v]) / inertia)
+        if x >= 0:
+            error = min(error / weight[v], error * response_of(matrices, x, v, inertia) / weight[x])
+        else:
+            error /= weight[v]
+        if error > 1.0:
+            return v
     return -1

@@ -25,7 +25,7 @@ from fairlead.integrate.point.controller import IDLE_ERROR, smallest_step
 from fairlead.integrate.point.interpolant import interpolate
 from fairlead.integrate.stepping.jump_at_end import has_hold_row
 from fairlead.integrate.stepping.limit_violation import BEYOND
-from fairlead.integrate.stepping.other_zones import forces_if_switched, speed_off
+from fairlead.integrate.stepping.other_zones import forces_if_switched, state_off
 
 PARTS = 8
 """No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
@@ -102,7 +102,7 @@ def impulse_counts(m, s, h, found, lasting):
     problem, point, t = m.problem, m.point, m.point.t + s * h
     at_y = point.at_y_probe
     forces_if_switched(problem, point, m.events.guards, m.stepping.contacts, t, at_y, at_y, found)
-    return speed_off(problem, point, m.linear.matrices, lasting, 1.5) >= 0
+    return state_off(m, h, lasting, 1.5) >= 0
 
 
 @compiled

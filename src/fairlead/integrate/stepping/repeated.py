@@ -5,6 +5,8 @@
     no good pivots                  half of it, or with other pivots              `halve_or_replan`
     a law that jumps                up to the jump, by event localisation         `localise_jump`, `end_at_switch`
                                     a settlement where it jumps at the start      `settle_jump`
+    a relay that switches at once   a settlement at the start, then steps that
+                                    end at the next switch                        `find_latch_ahead`
     a switch whose impulse counts   up to the switch                              `find_switch_passed`, `end_at_switch`
 
 All but the pivots and the settlement end in `take_again` (events/given_up.py), which alone sets the length of what
@@ -25,7 +27,7 @@ from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.point.controller import smallest_step, step_after_rejection
 from fairlead.integrate.stepping.history import note_rejection
 from fairlead.integrate.stepping.passed_over import find_passed_guard
-from fairlead.integrate.stepping.switch_inside import find_missed_impulse
+from fairlead.integrate.stepping.switch_inside import AT_ONCE, find_missed_impulse, latch_switched
 from fairlead.integrate.stepping.theta_step import give_back_zones
 
 HALVINGS = 3
@@ -41,6 +43,8 @@ that share is below 0.7."""
 AT_PLACE = 1e-3
 """Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
 than of its equations (residual.SOLVED)."""
+SETTLED_AHEAD = 2
+"""Settlements until switches are inside steps again: that just before a relay switches, and that where it does."""
 THETA_RISE, THETA_FALL = 0.05, 0.9
 """theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
 
@@ -154,11 +158,22 @@ def find_switch_passed(m, h):
     run, point = m.run, m.point
     if run.adaptive == 0:
         return False
-    if m.stepping.contacts.n_switched > 0 and find_missed_impulse(m.problem, point, m.linear.matrices, m.stepping, h):
+    if m.stepping.contacts.n_switched > 0 and find_missed_impulse(m, h):
         if run.retried >= TRIES:
             m.stepping.rule.t_cut = point.t + 0.5 * h
         return True
     return find_passed_guard(m, h)
+
+
+@compiled
+def find_latch_ahead(m):
+    """True if a relay or the like switches just ahead: the start is settled, and steps end at the next switch."""
+    if m.run.adaptive == 0 or not latch_switched(m.stepping.contacts, AT_ONCE):
+        return False
+    m.run.rejected_switch += 1
+    give_back_zones(m.events.guards, m.stepping)
+    m.stepping.rule.locates_for = SETTLED_AHEAD
+    return True
 
 
 @compiled

@@ -8,9 +8,13 @@ at the switch misses nothing, so where the error counts the step is taken again 
                     the other way, under a mean force p. Had it turned, the mean would be F s - F (1 - s). Where that
                     lies beyond p, seen from F, the contact cannot have held: more than F pulls, and h times the
                     difference is missed.
-    another force   A law without a force of its own among the unknowns (a stop, a rope, a contact that binds) says
-                    other forces after the switch. Straight on either side of s, it misses h s (f_old - f_new)/2, both
-                    at the start of the step.
+    another force   A law without a force of its own among the unknowns (a stop, a rope, a contact that binds, a relay
+                    that commands a motor) says other forces after the switch. Straight on either side of s, it misses
+                    h s (f_old - f_new)/2, both at the start of the step; one that jumps misses twice that, also in the
+                    first hundredth of the step, where a continuous one misses nothing that counts.
+    a latch         A part that only tells signals and remembers that it switched (a relay, a state machine) counts
+                    always: when it switched is what one asks of it. Just before that the step is settled, and steps end
+                    at the next switch (repeated.find_latch_ahead).
 
 Laws that jump are in jump_at_end.py and jump_inside.py, what has risen and fallen again by the end of a step in
 passed_over.py. `find_missed_impulse` leaves the place in `t_cut`, and that of a kink in `t_kink`; what it asks returns
@@ -20,8 +24,9 @@ a share of the step, 1 where nothing is found. The unknown that is due to it goe
 from __future__ import annotations
 
 from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.stepping.jump_at_end import zero_of_guard
-from fairlead.integrate.stepping.other_zones import forces_in_zones, speed_off
+from fairlead.integrate.stepping.other_zones import forces_before_switches, state_off
 from fairlead.integrate.stepping.response import error_of_speed
 
 AT_ONCE = 1e-2
@@ -72,11 +77,11 @@ def note_switches(guards, stepping):
 
 
 @compiled
-def find_missed_impulse(problem, point, matrices, stepping, h):
+def find_missed_impulse(m, h):
     """True if a switch inside the step makes an error that counts; where the step should end, in `t_cut`."""
-    rule = stepping.rule
-    turn = find_turn(point, matrices, stepping.contacts, h)
-    other, kink = find_other_force(problem, point, matrices, stepping, h)
+    point, rule = m.point, m.stepping.rule
+    turn = find_turn(point, m.linear.matrices, m.stepping.contacts, h)
+    other, kink = find_other_force(m, h)
     first = min(turn, other)
     rule.t_cut = point.t + first * h
     if other <= turn and kink < 1.0:
@@ -128,25 +133,51 @@ def find_kink(stepping):
 
 
 @compiled
-def find_other_force(problem, point, matrices, stepping, h):
+def find_other_force(m, h):
     """The share of the step after which a law without a force of its own first switched, if the error counts; or 1.
 
     And the place of that switch if it is the kink of a table, else 1.
     """
-    contacts = stepping.contacts
-    switched = indices(contacts.at_switched, problem.n_machines)
-    after = reals(contacts.at_switched_after, problem.n_machines)
-    hold_row, kink = indices(contacts.at_hold_row, problem.n_machines), find_kink(stepping)
-    first, last = kink, kink if kink < 1.0 else 0.0
+    contacts, kink = m.stepping.contacts, find_kink(m.stepping)
+    first, last = free_switches(contacts, AT_ONCE, 1.0)
+    if kink < 1.0:
+        first, last = min(first, kink), max(last, kink)
+    if last > 0.0:
+        forces_before_switches(m.problem, m.point, contacts, 1.0)
+        off = state_off(m, h, last * h, 2.0)
+        if off >= 0 or latch_switched(contacts, 1.0):
+            m.point.worst = off
+            return (1.0 - SHORT_OF) * first, kink if first == kink else 1.0
+    first, last = free_switches(contacts, 0.0, AT_ONCE)
+    if last > 0.0 and first * h > smallest_step(m.run, m.point):
+        forces_before_switches(m.problem, m.point, contacts, AT_ONCE)
+        off = state_off(m, h, last * h, 1.0)
+        if off >= 0:
+            m.point.worst = off
+            return (1.0 - SHORT_OF) * first, 1.0
+    return 1.0, 1.0
+
+
+@compiled
+def free_switches(contacts, least, most):
+    """Between which shares of the step, from `least` to `most`, machines that hold no row switched; (1, 0): none."""
+    nz = contacts.n_machines
+    switched, after = indices(contacts.at_switched, nz), reals(contacts.at_switched_after, nz)
+    hold_row = indices(contacts.at_hold_row, nz)
+    first, last = 1.0, 0.0
     for k in range(contacts.n_switched):
         s = after[switched[k]]
-        if hold_row[switched[k]] < 0 and s >= AT_ONCE:
+        if hold_row[switched[k]] < 0 and least <= s < most:
             first, last = min(first, s), max(last, s)
-    if first == 1.0:
-        return 1.0, 1.0
-    forces_in_zones(problem, point, contacts, point.t, point.at_y, contacts.at_zones_at_start)
-    off = speed_off(problem, point, matrices, last * h, 2.0)
-    if off < 0:
-        return 1.0, 1.0
-    point.worst = off
-    return (1.0 - SHORT_OF) * first, kink if first == kink else 1.0
+    return first, last
+
+
+@compiled
+def latch_switched(contacts, most):
+    """True if a part that only tells signals and remembers, as a relay, switched before this share of the step."""
+    nz = contacts.n_machines
+    switched, after = indices(contacts.at_switched, nz), reals(contacts.at_switched_after, nz)
+    latches, found = indices(contacts.at_latches, nz), False
+    for k in range(contacts.n_switched):
+        found = found or (latches[switched[k]] == 1 and after[switched[k]] < most)
+    return found

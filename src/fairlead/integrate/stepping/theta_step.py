@@ -29,7 +29,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     R midway         the matrix is met on the way          solve_once                 halve_or_replan, underway.py
     R searched       moves were taken back, or in vain     search_line                judge_residual
     R linearised     J and M are evaluated                 forget_jacobian            linearise_step
-    R locates        zones never change in a step          engine.py                  find_violators
+    R locates        zones never change in a step          engine.py, trial.py        find_violators
     R frozen         they do not in this one               solve_in_zones             find_violators, expect_fronts
     E zones_differ   zones may not be those of J and M     whoever switches zones     linearise_step
     E n_exchanged    machines whose rows were exchanged    linearise_step             learn_constants, rows_are_known

@@ -70,7 +70,7 @@ def move_by_error(problem, point, linear, stepping, h):
         if holds[k] == 1 or quadrature[k] == 1:
             b[k] = 0.0
     solve_motion(linear, point.at_b)
-    if stepping.rule.damps == 1:
+    if stepping.rule.damps == 1 and stepping.rule.locates == 0:
         damp_end(problem, point, linear, stepping)
     for k in range(n):
         if moving[k] == 1 and quadrature[k] == 0:

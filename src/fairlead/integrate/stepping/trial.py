@@ -13,8 +13,9 @@ A step is repeated, in the order in which these are looked for,
     a law that jumps at a limit the step reaches      an end that is not found (by `finish_inside`)
     zones, or an end, that are not found              contacts that hold and slip at the start: that is settled
     an error above one                                an error above one
-    a switch inside, whose impulse would be missed    a guard that was above zero from the start: that is settled
-                                                      a switch inside, at which the interpolant is too rough
+    a relay that switches right at the start:         a guard that was above zero from the start: that is settled
+        that is settled, and steps end at switches    a switch inside, at which the interpolant is too rough
+    a switch inside, whose impulse would be missed
 
 repeated.py does that; the last two on the right are as of `rodas` (events/given_up.py, one_step.py). In three cases it
 is no shorter step that follows: the loop finds other pivots; it takes the step with the whole problem where a machine
@@ -47,6 +48,7 @@ from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     blame,
     end_at_switch,
+    find_latch_ahead,
     find_switch_passed,
     halve_or_replan,
     halve_unsolved,
@@ -115,6 +117,8 @@ def finish_inside(m, h, status):
     judge_swings(problem, run, point, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
+    if find_latch_ahead(m):
+        return settle_at_start(m)
     if find_switch_passed(m, h):
         blame(run, point)
         return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
@@ -254,7 +258,10 @@ def arrive_with_zones(m):
 
 @compiled
 def begin_again(m):
-    """After a settlement nothing is known of the steps before."""
+    """After a settlement nothing is known of the steps before; it may be the one after which steps end at switches."""
+    rule = m.stepping.rule
+    rule.locates_for = max(rule.locates_for - 1, 0)
+    rule.locates = 1 if rule.always_locates == 1 or rule.locates_for > 0 else 0
     begin_history(m.run, m.point, m.linear.matrices, m.stepping)
 
 

@@ -4,6 +4,7 @@ These are facts of every kernel, laid over one System.
 
     given in time      a quantity in time that is not constant in some piece in force between start and stop
     follows            a signal, a prescribed motion or an own unknown of a law that reads it, and so on from law to law
+    rows that read it  of f, at once or by way of signals; what follows it as a state is smooth
     limit              a guard that bounds the force of its own contact while that holds
 
 How bodies move is not followed: what a limit owes to that, the error of a step sees. Constant pieces with jumps between
@@ -59,6 +60,22 @@ def switched_limits(system: System) -> list[str]:
     return _that_follow(system, nothing, switches) if switches.any() else []
 
 
+def timed_rows(system: System, start: float, stop: float) -> Booleans:
+    """[n]: rows of f that read something given in time that varies between start and stop, at once or by signals."""
+    beating = [_beats(block, start, stop, _moves) for block in system.blocks]
+    found = np.zeros(len(system.numbering.unknowns) + 1, dtype=bool)
+    if not any(beats.any() for beats in beating):
+        return found[:-1]
+    varies = _spread(system, beating, np.zeros(len(system.memory["z"]), dtype=bool), states=False)
+    for block, beats in zip(system.blocks, beating, strict=True):
+        s = block.kernel.structure
+        for k in range(len(s.targets)):
+            rows = block.flow_index.reshape(block.count, -1)[:, k]
+            reached = _reached(block, beats, varies, _inputs(s, s.zones, len(s.outputs) + k))
+            found[np.minimum(rows[reached], len(found) - 1)] = True
+    return found[:-1]
+
+
 def _that_follow(system: System, beating: list[Booleans], varies: Booleans) -> list[str]:
     """Components whose limit follows what beats in a law, or what lies at these places in z."""
     varies = _spread(system, beating, varies)
@@ -105,12 +122,12 @@ def _terms_between(given: PiecewisePolynomial, start: float, stop: float) -> NDA
     return given.terms[(given.right > start) & (given.left < stop)]
 
 
-def _spread(system: System, beating: list[Booleans], varies: Booleans) -> Booleans:
-    """By place in z: whether it follows what is given in time, or what varies already."""
+def _spread(system: System, beating: list[Booleans], varies: Booleans, *, states: bool = True) -> Booleans:
+    """By place in z: whether it follows what is given in time, or what varies already; `states`: also by those."""
     while True:
         before = np.count_nonzero(varies)
         for block, beats in zip(system.blocks, beating, strict=True):
-            for place, inputs in _places(block):
+            for place, inputs in _places(block, states=states):
                 made = place[_reached(block, beats, varies, inputs)]
                 varies[made] = True
         varies[system.numbering.dump] = varies[system.numbering.zero] = False
@@ -118,13 +135,13 @@ def _spread(system: System, beating: list[Booleans], varies: Booleans) -> Boolea
             return varies
 
 
-def _places(block: Block) -> Iterator[tuple[NDArray[np.int64], set[int]]]:
+def _places(block: Block, *, states: bool = True) -> Iterator[tuple[NDArray[np.int64], set[int]]]:
     """By signal and own unknown of a class: where it lies in z, by instance; and the inputs it depends on."""
     s = block.kernel.structure
     for k in range(len(s.outputs)):
         yield block.sig_index.reshape(block.count, -1)[:, k], _inputs(s, s.zones, k)
     for k, target in enumerate(s.targets):
-        if key(target).kind == OWN:
+        if states and key(target).kind == OWN:
             zones = [zone for zone in s.zones if zone not in s.holds.get(key(target).name, ())]
             rows = block.flow_index.reshape(block.count, -1)[:, k]  # that of an unknown is its place in z
             yield rows, _inputs(s, zones, len(s.outputs) + k)

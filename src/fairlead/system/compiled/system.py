@@ -166,6 +166,13 @@ class System:
         return named[slot]["name"] if slot < len(named) else ""
 
     @property
+    def bodies(self) -> NDArray[np.bool_]:
+        """[n]: speeds of nodes that have a position too."""
+        found = np.zeros(len(self.numbering.unknowns), dtype=bool)
+        found[[v for _, v in self.numbering.pairs]] = True
+        return found
+
+    @property
     def gauge(self) -> NDArray[np.bool_]:
         """[n]: unknowns that only differ by what is said of one of them, which is chance: how circles share a load.
 
