@@ -2,12 +2,16 @@
 
 from fairlead.component import Component, Input, Law, Output, Parameter, State, Zones, guard, least, zone
 
+ROOM = 1e-6
+"""Share of a limit, or of 0.1, by which a signal that rests there may be short of it."""
+
 
 class Integrator(Component):
     """d(signal)/dt = gain value, from `initial` on, and at rest at a limit while the value would lead beyond it.
 
     Without limits it is free. Limits hold the signal where it met them (no windup); it leaves at once when the value
-    changes its sign. Limits: the impulse of an impact may carry it beyond `low` or `high`, and then it stays there.
+    changes its sign, or once the limit is moved away from it. Limits: the impulse of an impact may carry it beyond
+    `low` or `high`, and then it stays there.
     """
 
     asked_with = {"low": -1.0, "high": 1.0}
@@ -58,6 +62,16 @@ class Integrator(Component):
     def comes_up(p, value):
         """The value leads back."""
         return p.gain * value
+
+    @guard("full", to="free", unit="1")
+    def has_room_above(p, gathered):
+        """The limit was raised while the signal was there."""
+        return None if p.high is None else p.high - gathered - ROOM * (abs(p.high) + 0.1)
+
+    @guard("empty", to="free", unit="1")
+    def has_room_below(p, gathered):
+        """The limit was lowered while the signal was there."""
+        return None if p.low is None else gathered - p.low - ROOM * (abs(p.low) + 0.1)
 
 
 class FilteredDerivative(Component):

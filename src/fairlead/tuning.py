@@ -25,10 +25,12 @@ from fairlead.integrate.underway import Underway
 from fairlead.outer import Variable, find_tunable
 from fairlead.system.arrays.blocks import Block
 from fairlead.system.arrays.working import discrete, offsets
+from fairlead.system.compiled.named_parts import rigid_stops
 from fairlead.system.compiled.system import Instance, System
 
 if TYPE_CHECKING:
     from fairlead.component.assembly import Assembly
+    from fairlead.component.assembly import Instance as Part
     from fairlead.netlist.netlist import Netlist
 
 
@@ -61,6 +63,7 @@ class Model(Protocol):
 
 SAME_PLACE = 1e-9  # m or rad, or of the place; less is rounding of pieces
 BY_SIGNAL = "Drive it by a signal (VelocityActuator, SpeedActuator), or begin another run with the value."
+A_STOP_THAT_GIVES = "Take a stop that gives (EndStop, ElasticGap, Tether), or begin another run with the value."
 KEPT = ("zones", "sample_count", "sample_start", "set_due", "set_values")
 """What a run goes on with beside its unknowns, of the arrays that callbacks write to; the others follow from these."""
 
@@ -149,7 +152,16 @@ def moved_at_once(one: System, two: System, t: float) -> str:
             if abs(now - was) > SAME_PLACE * max(1.0, abs(was)):
                 place = f"{a.path} from {was:.6g} to {now:.6g} at once"
                 return f"would move {place}: its place follows from what is given since the start. {BY_SIGNAL}"
+    met = set(rigid_stops(one))
+    for a, b in zip(one.flat.instances, two.flat.instances, strict=True):
+        if a.path in met and (changed := [name for name in _places(a) if a.values.path(name) != b.values.path(name)]):
+            return f"would move what {a.path} stops at once ({changed[0]}). {A_STOP_THAT_GIVES}"
     return ""
+
+
+def _places(part: Part) -> list[str]:
+    """Parameters that are lengths or angles."""
+    return [name for name, one in part.type.declaration.parameters.items() if one.unit in ("m", "rad")]
 
 
 def _written(name: str, model: Model) -> object:

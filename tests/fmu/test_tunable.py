@@ -223,6 +223,22 @@ interface: {outputs: {place: hand.x}, tunable: {speed: hand.velocity, stiffness:
     assert {one.name: one.when for one in found} == {"speed": BEFORE, "stiffness": ALWAYS}
 
 
+def test_the_place_of_a_rigid_stop_is_set_before_the_start_only(tmp_path):
+    """After it what rests there would jump, or stay inside the stop."""
+    text = """
+components:
+  wall: {type: Ground}
+  stop: {type: RigidStop, length: 1 m}
+  block: {type: Mass, mass: 1 kg, position: 1.5 m}
+  weight: {type: ForceSource, force: -20 N}
+connections: [[wall.flange, stop.a], [stop.b, block.flange, weight.flange]]
+run: {stop: 2 s}
+interface: {outputs: {place: block.x}, tunable: {length: stop.length, push: weight.force}}
+"""
+    found = made_of(asked_of(model(tmp_path, "stop", text), (), (), (), {}, "export")).tuned
+    assert {one.name: one.when for one in found} == {"length": BEFORE, "push": ALWAYS}
+
+
 def test_a_parameter_beside_its_bound_can_be_set(tmp_path):
     """A tenth more than an efficiency of 0.95 is none: the model is asked for values that it takes."""
     text = """

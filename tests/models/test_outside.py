@@ -455,3 +455,40 @@ run: {{stop: 2 s}}
     run.set("rope.stiffness", "50 N/m")
     run.advance(0.7 + 1e-9)
     assert run.get("hand.x") == pytest.approx(place, abs=1e-8)
+
+
+def test_the_place_of_a_rigid_stop_does_not_jump(scene):
+    text = """
+    components:
+      wall: {type: Ground}
+      stop: {type: RigidStop, length: 1 m}
+      block: {type: Mass, mass: 1 kg, position: 1.5 m}
+      weight: {type: ForceSource, force: -20 N}
+    connections: [[wall.flange, stop.a], [stop.b, block.flange, weight.flange]]
+    run: {stop: 2 s}
+    """
+    run = scene(text).start(tunable=["stop.length"])
+    run.set("stop.length", 0.9)  # before the start it may be anywhere
+    run.advance(1.0)
+    with pytest.raises(fairlead.UsageError, match=r"what stop stops at once.*EndStop"):
+        run.set("stop.length", 1.1)
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+@pytest.mark.parametrize(("limit", "sign"), [("high", 1.0), ("low", -1.0)])
+def test_an_integral_at_its_limit_goes_on_when_that_is_moved_away(scene, engine, limit, sign):
+    text = f"""
+    components:
+      rate: {{type: SignalSource, value: {sign}}}
+      sum: {{type: Integrator, {limit}: {0.5 * sign}}}
+    connections: [[rate.signal, sum.value]]
+    run: {{stop: 4 s, engine: {engine}}}
+    """
+    run = scene(text).start(tunable=[f"sum.{limit}"])
+    run.advance(1.0)
+    assert run.get("sum.signal") == pytest.approx(0.5 * sign)
+    run.set(f"sum.{limit}", 1.5 * sign)
+    run.advance(1.4)
+    assert run.get("sum.signal") == pytest.approx(0.9 * sign)
+    run.advance(3.0)
+    assert run.get("sum.signal") == pytest.approx(1.5 * sign)
