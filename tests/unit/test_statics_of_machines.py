@@ -71,7 +71,7 @@ def paid_out(angle):
 
 def test_a_drum_that_turns_steadily_pays_out_ever_slower(scene):
     model = scene(LAYERED)
-    state = next(one for one in table(model).moving if one.speed > 0)
+    state = max((one for one in table(model).moving if one.speed > 0), key=lambda one: one.way)
     way, radius = paid_out(1.3 * 99.5)
     assert state.way == pytest.approx(way, rel=1e-3)
     assert state.speed == pytest.approx(1.3 * radius, rel=1e-9)
@@ -83,10 +83,51 @@ def test_a_drum_that_turns_steadily_pays_out_ever_slower(scene):
     assert winch.lever == pytest.approx(radius, rel=1e-9)
 
 
+def emptied():
+    """Of each layer that is paid out at 1.3 rad/s: its number, its radius, and the way when its last wrap comes off."""
+    rise, radii, left = 0.02 * math.sqrt(3) / 2, [], 32.0
+    while left > 0:
+        radii.append(0.11 + len(radii) * rise)
+        left -= 6 * math.pi * radii[-1]
+    way, angle = 0.0, 1.3 * 99.5
+    for k in reversed(range(len(radii))):
+        length = 6 * math.pi * radii[k] + (left if k == len(radii) - 1 else 0.0)
+        length, angle = min(length, angle * radii[k]), angle - length / radii[k]
+        way += length
+        yield k + 1, radii[k], way
+        if angle <= 0:
+            return
+
+
+def test_of_layers_the_fastest_is_told_and_those_in_which_force_or_torque_is_larger(scene):
+    """What a current pulls grows with the line in it, and the radius falls: both are largest in other layers."""
+
+    def pulls(radius, way):
+        return 100 + 0.5 * 1025 * 0.05 * math.pi * 0.02 * (way - 32 + 36 - 3) * (5 - 1.3 * radius) ** 2
+
+    layers = list(emptied())
+    force = max(layers, key=lambda one: pulls(*one[1:]))[0]
+    torque = max(layers, key=lambda one: pulls(*one[1:]) * one[1])[0]
+    found = [one for one in table(scene(LAYERED)).record["states"] if one["speed"] > 0]
+    assert {one["layer"] for one in found} == {layers[0][0], force, torque}
+    assert found[0]["layer"] == layers[0][0]
+    assert found[0]["speed"] == pytest.approx(1.3 * layers[0][1], rel=1e-9)
+    assert found[0]["state"] == f"paying out, layer {layers[0][0]}"
+
+
+def test_of_layers_in_which_nothing_but_the_speed_changes_the_fastest_alone_is_told(scene):
+    found = table(scene(LAYERED.replace("drag_coefficient: 0.05", "drag_coefficient: 0")))
+    (state,) = [one for one in found.moving if one.speed > 0]
+    (number, radius, _), *_ = emptied()
+    assert (state.route.layer(state.way), state.speed) == (number, pytest.approx(1.3 * radius, rel=1e-9))
+    rows = found.drives().to_pandas()
+    assert {f"layer {number}" in row for row in rows["state"] if row.startswith("paying out")} == {True}
+
+
 @pytest.mark.slow
 def test_the_run_pays_out_as_statics_says(scene):
     model = scene(LAYERED)
-    state = next(one for one in table(model).moving if one.speed > 0)
+    state = max((one for one in table(model).moving if one.speed > 0), key=lambda one: one.way)
     result = model.run(out=None)
     assert result["rope.node[0].x"][-1] + 32 == pytest.approx(state.way, rel=1e-3)
     assert result["route.winch.layers.radius_now"][-1] == pytest.approx(state.speed / 1.3, rel=1e-6)

@@ -153,6 +153,13 @@ class LaidRoute:
             return 1.0
         return float(self.winch.station.leaves_at(self.stored(way), self.says.diameter))
 
+    def layer(self, way: float) -> int | None:
+        """The layer of the drum that the line leaves, from 1; None of a drum without layers."""
+        if self.winch is None:
+            return None
+        layer: int | None = self.winch.station.layer_at(self.stored(way), self.says.diameter)
+        return layer
+
     def drivers(self) -> Iterator[tuple[str, Machine]]:
         """All that takes whatever force its motion needs, inboard first."""
         if self.inboard.drives:

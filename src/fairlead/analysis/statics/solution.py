@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from fairlead.analysis.statics.cone import Held, held
 from fairlead.analysis.statics.laid_route import Device, LaidRoute, laid_routes
 from fairlead.analysis.statics.pieces import Laid, bearing, pieces, tail
-from fairlead.analysis.statics.schedule import STILL, Schedule
+from fairlead.analysis.statics.schedule import STILL, Schedule, Stretch
+from fairlead.analysis.statics.shares import shares
 from fairlead.analysis.statics.sliding import Piece, along, beyond
 from fairlead.analysis.statics.states import Drive, Passage, State
 from fairlead.brief import in_a_line
@@ -66,19 +67,62 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
         moving = [state(route, rest[0], way * speed, 0.0) for way in (1, -1)]
     elif schedule is not None:
         for sign in (1, -1):
-            t = schedule.furthest(sign)
-            if t is not None:
-                hardest = _hardest_while(route, schedule, sign, t)
-                if hardest != t:
-                    notes.append(f"what pulls at its ends changes while it moves; it is hardest at {hardest:.4g} s")
-                moving.append(state(route, hardest, _steady_speed(schedule, sign), schedule.way(hardest)))
+            for stretch, found in _told(route, schedule, sign):
+                if found.t != schedule.most_out(sign, stretch):
+                    notes.append(f"what pulls at its ends changes while it moves; it is hardest at {found.t:.4g} s")
+                moving.append(found)
         t = schedule.furthest(0)
         rest = (t, schedule.way(t)) if t is not None else rest
     else:
         rest = (_hardest(route), 0.0)
         remarks.append("no reference tells a speed of the line, so only standing still is told; --speed gives one")
     starts = tuple(starting(route, schedule)) if schedule is not None and speed is None else ()
-    return Statics(route, schedule, tuple(moving), held(route, *rest), starts, tuple(remarks), tuple(notes))
+    standing = held(route, *rest)
+    notes += [standing.loop] if standing.loop else []
+    return Statics(route, schedule, tuple(moving), standing, starts, tuple(remarks), tuple(notes))
+
+
+def _told(route: LaidRoute, schedule: Schedule, sign: int) -> list[tuple[Stretch, State]]:
+    """The states that stand for a direction: its fastest, and layers of a drum in which something is larger than there.
+
+    The radius of a drum with layers makes the speed and the torque, the way paid out most of the pull, so that the
+    layer in which one is largest need not be that of another.
+    """
+    fastest = schedule.steady(sign)
+    if fastest is None:
+        return []
+    found = [(fastest, _steady(route, schedule, fastest, sign))]
+    others = [(one, _steady(route, schedule, one, sign)) for one in schedule.layers(sign) if one != fastest]
+    for measure in (_most_force, _most_torque, _most_tension, _most_pressed):
+        worst = max([*found, *others], key=lambda one: measure(one[1]))
+        if measure(worst[1]) > (1 + CHANGES) * max(measure(one) for _, one in found):
+            found.append(worst)
+    return found
+
+
+def _most_force(one: State) -> float:
+    return max((abs(drive.force) for drive in one.drives), default=0.0)
+
+
+def _most_torque(one: State) -> float:
+    return max((abs(drive.torque or 0.0) for drive in one.drives), default=0.0)
+
+
+def _most_tension(one: State) -> float:
+    return max([0.0, *(float(each.tension.max()) for each in one.passages)])
+
+
+def _most_pressed(one: State) -> float:
+    """Compression of the line, of an array that of its hose [N]."""
+    layers = shares(one)
+    lowest = [layers.lowest] if layers is not None else [float(each.tension.min()) for each in one.passages]
+    return max(-min(lowest, default=0.0), 0.0)
+
+
+def _steady(route: LaidRoute, schedule: Schedule, stretch: Stretch, sign: int) -> State:
+    """The state in a time of steady speed: with most line out, or when the ends are pulled hardest."""
+    t = _hardest_while(route, schedule, stretch, schedule.most_out(sign, stretch))
+    return state(route, t, stretch.speed, schedule.way(t))
 
 
 def _hardest(route: LaidRoute) -> float:
@@ -87,10 +131,9 @@ def _hardest(route: LaidRoute) -> float:
     return max(_looks(route, run.start, run.stop), key=lambda t: _pulled(route, t, 0.0, 0.0))
 
 
-def _hardest_while(route: LaidRoute, schedule: Schedule, sign: int, otherwise: float) -> float:
+def _hardest_while(route: LaidRoute, schedule: Schedule, stretch: Stretch, otherwise: float) -> float:
     """When the ends are pulled hardest while the line moves steadily; the time `otherwise` if that does not change."""
-    stretch = schedule.steady(sign)
-    if stretch is None or stretch.end <= stretch.begin:
+    if stretch.end <= stretch.begin:
         return otherwise
     way = schedule.way(otherwise)
     pulls = {t: _pulled(route, t, stretch.speed, way) for t in _looks(route, stretch.begin, stretch.end)}
@@ -107,12 +150,6 @@ def _looks(route: LaidRoute, begin: float, end: float) -> list[float]:
 def _pulled(route: LaidRoute, t: float, speed: float, way: float) -> float:
     """How hard both ends are pulled [N]."""
     return abs(tail(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
-
-
-def _steady_speed(schedule: Schedule, sign: int) -> float:
-    stretch = schedule.steady(sign)
-    assert stretch is not None
-    return stretch.speed
 
 
 def starting(route: LaidRoute, schedule: Schedule) -> Iterator[State]:
@@ -160,7 +197,7 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
 
 
 def _holds(laid: list[Laid], between: list[int], loop: Device) -> bool:
-    """True when a tensioner stands between two drives: its loop, half way out, sets the tension there."""
+    """True when a tensioner stands between two drives: its loop, which begins drawn in, sets the tension there."""
     return any(laid[k][1].begin == loop.begin for k in between)
 
 
