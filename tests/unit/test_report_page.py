@@ -319,6 +319,23 @@ def test_a_contact_that_turns_round_slides_once(tmp_path: Path) -> None:
     assert said["pad"] == "It sticks at first. It slides once, first from 1 s to 6 s; 50 % of the time."
 
 
+@pytest.mark.parametrize("zones", [["forward", "backward", "closed"], ["linear", "forward", "backward"]])
+def test_a_valve_that_is_open_either_way_does_not_slide(tmp_path: Path, zones: list[str]) -> None:
+    """A servo valve, and a drive at its limits: they have words of a contact, but none for sticking or lifting off."""
+    to_and_fro = ("forward", "backward")
+    changes = [(k, "valve.lands", *to_and_fro[:: 1 if k % 2 else -1]) for k in range(1, 8)]
+    has = [zones[-1], *zones[:-1]] if zones[0] == "linear" else zones
+    said = told(tmp_path, [of("valve.lands", has)], *changes)["valve.lands"]
+    assert "slide" not in said
+    assert "is forward" in said or "is backward" in said
+
+
+@pytest.mark.parametrize("zones", [["forward", "backward", "off"], ["held", "forward", "backward"]])
+def test_a_contact_that_slides_to_and_fro_does(tmp_path: Path, zones: list[str]) -> None:
+    changes = [(k, "pad", *("forward", "backward")[:: 1 if k % 2 else -1]) for k in range(1, 8)]
+    assert "slides" in told(tmp_path, [of("pad", zones)], *changes)["pad"]
+
+
 def test_a_state_machine_is_told_by_its_states_and_not_by_its_comparators(tmp_path: Path) -> None:
     said = told(tmp_path, [of("box.step", ["below"]), of("box.machine", ["draining"])],
                 (1.0, "box.step", "below", "above"), (2.0, "box.step", "above", "below"),
