@@ -22,7 +22,7 @@ from fairlead.cases.figures import Figure, Function, default_figures, read_figur
 from fairlead.cases.identity import key_of, scene_digest
 from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
 from fairlead.cases.values_of import value_of
-from fairlead.errors import FairleadError, Location, ModelError
+from fairlead.errors import FairleadError, Location, ModelError, UsageError
 from fairlead.netlist.settings import RecordSettings
 from fairlead.running import run
 
@@ -141,7 +141,10 @@ class Cases:
 
     def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)
-        result = self._result(model, also)
+        try:
+            result = self._result(model, also)
+        except UsageError as error:  # the engine that was asked for does not run such a model, or is not installed
+            return replace(start, status=REFUSED, sentence=_in_a_line(error))
         run = result.run
         counters = {name: int(run[name]) for name in COUNTED}
         status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
