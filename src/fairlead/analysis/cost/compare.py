@@ -75,7 +75,8 @@ def compare(
     A run ends after `max_wall` (`"2 min"`, or seconds) at the latest.
 
     The reference is exact hold where the treatment is varied, and of anything else the first value, at a hundredth of
-    the finest accuracy of all combinations. Raises ModelError for every mistake in what is varied, before anything runs.
+    the finest accuracy of all combinations. Raises ModelError for every mistake in what is varied, before it runs
+    anything.
     """
     asked = Arguments("compare")
     asked.path("out", out)
