@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from fairlead.report.measured import measured
 from fairlead.report.page.sentence import Sentence
 from fairlead.report.page.signals import families, first_panels
-from fairlead.report.page.zones import PIECE, meaning, starts
-from fairlead.results.events import lasting
+from fairlead.report.page.zones import meaning, starts
+from fairlead.results.events import PIECE, lasting
 from fairlead.results.plateau import ROUNDED as LAST_DIGITS
 from fairlead.results.plateau import first_of
 from fairlead.results.signal import family

@@ -1,4 +1,4 @@
-"""Files as a page names them that goes to other people: by their place beside the netlist, not on the author's machine."""
+"""Files as a page that goes to others names them: by their place beside the netlist, not on the author's machine."""
 
 from __future__ import annotations
 
