@@ -68,7 +68,7 @@ def _changes(result: Result) -> dict[str, list[tuple[float, str, str]]]:
 
 def starts(run: Mapping[str, Any]) -> dict[str, str]:
     """The zone at the start, by part."""
-    found = {}
+    found: dict[str, str] = {}
     for one in run.get("zones") or ():
         for number, first in zip(one["elements"], one["start"], strict=True):
             name = one["family"] if number is None else one["family"].replace("[*]", f"[{number}]")
