@@ -185,8 +185,7 @@ def test_of_a_load_that_changes_the_hardest_pull_is_told_and_when(scene):
     assert any("changes while it moves; it is hardest at 4" in remark for remark in found.notes)
 
 
-def test_a_line_at_whose_end_another_one_pulls_says_so_and_is_not_compared(scene):
-    text = f"""
+JOINED = f"""
 components:
   one: {ROPE % (6, 0)}
   two: {ROPE % (6, 6)}
@@ -201,14 +200,50 @@ connections:
   - [one.outboard, two.inboard]
   - [load.flange, two.outboard]
 run: {{stop: 4 s}}
+record: {{signals: ["*.tension", "*.x"], every: 10 ms}}
 """
-    model = scene(text)
-    told = [remark for found in model.statics() for remark in found.remarks]
-    assert "outboard end: two acts there, and is not counted" in told
-    assert "inboard end: one acts there, and is not counted" in told
-    against = against_statics(model.flat, model.run(out=None))
-    assert against["difference"] is None
-    assert "not counted" in against["reason"]
+GRIP = math.exp(0.3 * math.pi / 2)
+
+
+@pytest.mark.parametrize("hauled_at", ["one.inboard", "two.outboard"])
+def test_lines_that_are_joined_pull_at_each_other_by_the_capstans_of_both(scene, hauled_at):
+    """300 N pull at one end and a hand at the other: behind both bends they are 300 N times the capstan of each."""
+    text = JOINED
+    if hauled_at == "two.outboard":  # the other way round, outboard
+        text = text.replace("haul.flange, one.inboard", "load.flange, one.inboard").replace("force: 300", "force: -300")
+        text = text.replace("[load.flange, two.outboard]", "[haul.flange, two.outboard]").replace("to: -0.2", "to: 0.2")
+    one, two = scene(text).statics()
+    assert not one.remarks
+    assert not two.remarks
+    first, second = ([state] for state in (one.moving[0], two.moving[0]))
+    assert (len(one.moving), len(two.moving)) == (1, 1)
+    ends = [(each.passages[0].inboard, each.passages[-1].outboard) for (each,) in (first, second)]
+    wanted = [(300 * GRIP**2, 300 * GRIP), (300 * GRIP, 300)]
+    assert ends == [pytest.approx(pair) for pair in (wanted if hauled_at == "one.inboard" else
+                                                     [pair[::-1] for pair in wanted[::-1]])]  # fmt: skip
+    cone = (one if hauled_at == "one.inboard" else two).standing
+    ranges = [cone.passages[0].inboard, cone.passages[-1].outboard]
+    assert pytest.approx((300 / GRIP**2, 300 * GRIP**2)) in ranges
+    assert pytest.approx((300 / GRIP, 300 * GRIP)) in ranges
+    assert any("two is joined to it" in note for note in one.notes)
+    assert any("one is joined to it" in note for note in two.notes)
+
+
+def test_a_run_of_joined_lines_is_as_their_statics_says(scene):
+    model = scene(JOINED.replace("stop: 4 s", "stop: 9 s"))
+    result = model.run(out=None)
+    late = result.t > 2.5
+    assert result["one.line[0].tension"][late].mean() == pytest.approx(300 * GRIP**2, rel=0.03)
+    assert result["two.line[0].tension"][late].mean() == pytest.approx(300 * GRIP, rel=0.03)
+    against = against_statics(model.flat, result)
+    assert against["difference"] < 0.03, against["reason"]
+
+
+def test_between_lines_that_both_hold_the_joint_is_open_and_named(scene):
+    text = JOINED.replace("{type: ForceSource, force: 300 N}", "{type: MotionSource, velocity: -0.2 m/s}")
+    for found in scene(text).statics():
+        assert any("two drives hold the line" in remark for state in found.moving for remark in state.remarks)
+        assert any("is joined to it" in note for note in found.notes)
 
 
 @pytest.mark.parametrize("amplitude", [1.0, -1.0])

@@ -63,9 +63,10 @@ def held(route: LaidRoute, t: float, way: float) -> Held:
     laid = list(pieces(route, t, 0.0, way))
     known_in = route.inboard.tension if route.inboard.tension is not None else -route.pull(route.inboard, t, 0.0, way)
     known_out = tail(route, t, 0.0, way)
+    before, beyond = (held(one, t, way).passages if one is not None else () for one in (route.before, route.beyond))
     known = (
-        ANY if route.inboard.drives else (known_in, known_in),
-        ANY if route.outboard.drives else (known_out, known_out),
+        ANY if route.inboard.drives else before[-1].outboard if before else (known_in, known_in),
+        ANY if route.outboard.drives else beyond[0].inboard if beyond else (known_out, known_out),
     )
     ends, loop = _ends(route, laid, t, known), ""
     for k, (_, piece, _) in enumerate(laid):

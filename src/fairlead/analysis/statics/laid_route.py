@@ -95,6 +95,11 @@ class LaidRoute:
     outboard: Machine
     winch: Device | None
     seas: tuple[Device, ...]
+    before: LaidRoute | None = None
+    """A line that pulls at its inboard end; `beyond`: at its outboard end (joined.py)."""
+    beyond: LaidRoute | None = None
+    moved_by: LaidRoute | None = None
+    """A line joined to it, of which a reference tells the speed of both."""
 
     @property
     def says(self) -> OfLine:
@@ -176,7 +181,7 @@ class LaidRoute:
         for _, drive in reversed(list(self.drivers())):
             if drive.speed is not None:
                 return self._scheduled(drive, drive.speed, run.start, run.stop)
-        return None
+        return self.moved_by.schedule() if self.moved_by is not None else None
 
     def _scheduled(self, drive: Machine, speed: Wave, begin: float, end: float) -> Schedule:
         """The speed of the line in a time that a machine gives with its own."""

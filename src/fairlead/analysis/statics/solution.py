@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.statics.cone import Held, held
+from fairlead.analysis.statics.joined import joined
 from fairlead.analysis.statics.laid_route import Device, LaidRoute, laid_routes
 from fairlead.analysis.statics.pieces import Laid, bearing, pieces, tail
 from fairlead.analysis.statics.schedule import STILL, Schedule, Stretch
@@ -54,7 +55,7 @@ class Statics:
 
 def statics(flat: FlatModel, speed: float | None = None) -> list[Statics]:
     """Statics of every line on a route; `speed` [m/s] replaces what the references say, and is taken both ways."""
-    return [_of(route, speed) for route in laid_routes(flat)]
+    return [_of(route, speed) for route in joined(laid_routes(flat))]
 
 
 def _of(route: LaidRoute, speed: float | None) -> Statics:
@@ -78,7 +79,7 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
         remarks.append("no reference tells a speed of the line, so only standing still is told; --speed gives one")
     starts = tuple(starting(route, schedule)) if schedule is not None and speed is None else ()
     standing = held(route, *rest)
-    notes += [standing.loop] if standing.loop else []
+    notes += [*([standing.loop] if standing.loop else []), *_neighbours(route)]
     return Statics(route, schedule, tuple(moving), standing, starts, tuple(remarks), tuple(notes))
 
 
@@ -149,7 +150,7 @@ def _looks(route: LaidRoute, begin: float, end: float) -> list[float]:
 
 def _pulled(route: LaidRoute, t: float, speed: float, way: float) -> float:
     """How hard both ends are pulled [N]."""
-    return abs(tail(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
+    return abs(outboard_tension(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
 
 
 def starting(route: LaidRoute, schedule: Schedule) -> Iterator[State]:
@@ -177,11 +178,11 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
     begin, end = 0, len(laid)
     places = [_places(route, piece, way) for _, piece, _ in laid]
     march = _March(route, laid, places, t, speed, way, acceleration, found)
-    if left_known or not (right_known or drivers):
+    if left_known:
         tension = inboard_tension(route, t, speed, way, acceleration)
         begin = march.outward(tension, range(len(laid)))
     if right_known and (drivers or not left_known):
-        tension = tail(route, t, speed, way)
+        tension = outboard_tension(route, t, speed, way, acceleration)
         tension -= route.inertia(route.outboard, way) * acceleration
         end = march.inward(tension, range(len(laid) - 1, -1, -1))
     between = [k for k in range(begin, end) if k not in found and not _drives(laid[k][0])]
@@ -207,9 +208,20 @@ def _places(route: LaidRoute, piece: Piece, way: float) -> NDArray[np.float64]:
     return distinct(np.concatenate([np.linspace(piece.begin, piece.end, POINTS), inside]))
 
 
+def outboard_tension(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> float:
+    """Tension [N] at the outboard end: what pulls there, or the line that is joined to it."""
+    if route.beyond is None:
+        return tail(route, t, speed, way)
+    passages = state(route.beyond, t, speed, way, acceleration).passages
+    return passages[0].inboard if passages else 0.0
+
+
 def inboard_tension(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> float:
     """Tension [N] at the inboard end: what the winch keeps or pulls with, and what the drum takes to be sped up."""
     made = route.inboard
+    if route.before is not None:
+        passages = state(route.before, t, speed, way, acceleration).passages
+        return passages[-1].outboard if passages else 0.0
     kept = made.tension if made.tension is not None else -route.pull(made, t, speed, way)
     heavy = 0.0 if made.paced else route.inertia(made, way) + route.mass * route.stored(way)
     return kept + heavy * acceleration
@@ -337,7 +349,7 @@ def _end_tension(march: _March, *, inboard: bool) -> float:
     if inboard and not route.inboard.drives:
         return inboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     if not inboard and not route.outboard.drives:
-        return tail(route, march.t, march.speed, march.way)
+        return outboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     return route.says.tension
 
 
@@ -361,8 +373,17 @@ def _not_counted(route: LaidRoute) -> Iterator[str]:
             who = dict.fromkeys(_line_or_part(route, path) for path in made.left_out)
             counted = "acts there, and is" if len(who) == 1 else "act there, and are"
             yield f"{name}: {', '.join(who)} {counted} not counted"
-        if made.unknown:
+        if made.unknown and made.by not in route.flat.assembly.lines:
             yield f"{name}: what {made.by} gives cannot be told; it is taken to hold whatever comes"
+
+
+def _neighbours(route: LaidRoute) -> Iterator[str]:
+    """The lines that are joined to this one, and what is taken of them."""
+    for end, made, other in (("inboard", route.inboard, route.before), ("outboard", route.outboard, route.beyond)):
+        if other is not None:
+            yield f"{end} end: {other.line.path} is joined to it, and pulls with what its own statics says"
+        elif made.unknown and made.by in route.flat.assembly.lines:
+            yield f"{end} end: {made.by} is joined to it, and gives whatever force its motion takes"
 
 
 def _line_or_part(route: LaidRoute, path: str) -> str:
