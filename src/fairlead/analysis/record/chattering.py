@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from fairlead.results.signal import family
 
 MOST_NAMED = 3
+LONGER = 1e4
+"""Dwells in one that makes a sliding mode cheap: its own is a hundredth of the accuracy of the span, or less."""
 
 
 def remark(names: Sequence[str], dwell: float, reaction: str) -> str:
@@ -24,8 +26,9 @@ def remark(names: Sequence[str], dwell: float, reaction: str) -> str:
     more = f" and {rest} more" if rest else ""
     done = (
         "Each was held for that time." if reaction == "hold" else
-        "Usually a load stays at its limit there, and the motion is right; run.chatter: hold keeps what "
-        "switches in its zone for that time. A relay or a comparator in a loop wants hysteresis."
+        "Usually a load stays at its limit there, and the motion is right; run.chatter: hold keeps what switches in "
+        f"its zone for that time, or for a longer one that you give, such as run.dwell: {LONGER * dwell:.1g} s. A "
+        "relay or a comparator in a loop wants hysteresis."
     )  # fmt: skip
     return (
         f"{', '.join(told)}{more} switched to and fro, each time within {dwell:.2g} s (run.dwell). {done} It happens "
