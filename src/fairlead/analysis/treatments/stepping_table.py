@@ -155,10 +155,9 @@ TABLE: tuple[Class, ...] = (
           lambda system, _: rigid_stops(system),
           "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
           "it locates the instants at which rigid stops are met"),
-    Class("voltages, pressures and the like of nodes that store nothing, beside a quantity given in time", REFUSED,
-          "stepping knows what balances a quantity in time at once ({}) as its means over steps, and a law that reads "
-          "it beside that quantity multiplies the difference", _followed_at_once,
-          auto="a voltage, a pressure or the like follows a quantity in time at once"),
+    Class("voltages, pressures and the like of nodes that store nothing, beside a quantity given in time", LANDED,
+          "{} balances a quantity in time at once, and stepping knows it as its means over steps where it ends none at "
+          "a switch", _followed_at_once),
     Class("nodes without inertia that feel a motion given in time", LANDED,
           "the speed of {} follows a motion given in time at once", _carried),
     Class("limits of friction given in time that turn ten times and more", LANDED,
@@ -245,6 +244,9 @@ def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     found = handling(system, settings)
     if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+    if means := list(_followed_at_once(system, settings)):
+        what = f"laws that read what follows a quantity in time at once ({few(means)}) get its means over steps"
+        yield Fault(_where(system, [means[0].rpartition(".")[0].rpartition(".")[0]]), f"run.engine: {what}.", WAY_OUT)
 
 
 def most_located(system: System, settings: RunSettings) -> int:
