@@ -236,7 +236,6 @@ def log_changes(m):
     nz, ng = settling.n_machines, guards.n_guards
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     machine, fired = indices(guards.at_guard_machine, ng), indices(guards.at_fired, ng)
-    by_machine, rim = indices(settling.at_switches_by_machine, nz), indices(settling.at_rim, nz)
     for k in range(guards.n_fired):
         owner = machine[fired[k]]
         if owner < 0:
@@ -245,14 +244,26 @@ def log_changes(m):
             write_event(point, settling, recorder, owner, before[owner], before[owner], fired[k])
     for z in range(nz):
         if zones[z] != before[z]:
-            guard = -1
-            for k in range(guards.n_fired):
-                if machine[fired[k]] == z:
-                    guard = fired[k]
-                    break
-            write_event(point, settling, recorder, z, before[z], zones[z], guard)
-            settling.switches += 1
-            by_machine[z] += 1
-            if run.narrowed == 1 and rim[z] == 1:
-                run.woken = 1
-            watch_chatter(m, z)
+            log_change(m, z)
+
+
+@compiled
+def log_change(m, z):
+    """Write the event of machine z, which changed."""
+    run, guards, settling = m.run, m.events.guards, m.events.settling
+    nz, ng = settling.n_machines, guards.n_guards
+    zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
+    machine, fired = indices(guards.at_guard_machine, ng), indices(guards.at_fired, ng)
+    guard = -1
+    for k in range(guards.n_fired):
+        if machine[fired[k]] == z:
+            guard = fired[k]
+            break
+    write_event(m.point, settling, m.recorder, z, before[z], zones[z], guard)
+    settling.switches += 1
+    indices(settling.at_switches_by_machine, nz)[z] += 1
+    if run.narrowed == 1 and indices(settling.at_rim, nz)[z] == 1:
+        run.woken = 1
+    watch_chatter(m, z)
+
+

@@ -131,6 +131,7 @@ CONTACTS = Struct(
     ),
     reals={
         "switched_after": "n_machines",  # the share of the step after which a machine left its zone; 0: it did not
+        "left_at": "n_machines",  # the share at which a machine left its zone, for the log; switch_inside.NOT_SEEN
         "jump_at": "n_machines",  # where between two middles a limit was reached; jump_inside.STAYED, NO_LIMIT
         "held_inertia": "n_machines",  # the inertia that resists the force of a machine; 0: not known
         "g_before": "n_guards",  # guards where the step before began
@@ -153,6 +154,7 @@ CONTACTS = Struct(
         "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
         "switched": "n_machines",  # machines that left their zone in the step, with a place for it
         "neighbour_starts": "n_machines_plus_1", "neighbours": "n_neighbours",  # by machine: who is handed its load
+        "in_order": "n_machines",  # scratch: machines that changed, in the order in which they left their zones
         "latches": "n_machines",  # 1 for machines that only tell signals and remember, as a relay
         "own_kind": "n_machines",  # machines of one number have the same laws and rows alike
         "only_kinks": "n_machines",  # 1 for machines that are but pieces of continuous tables

@@ -35,6 +35,8 @@ misses at the end; a stop (k u h^2/2m) s^2, a ten-thousandth. The chord does not
 SHORT_OF = AT_ONCE
 """Share of a step by which it ends short of a stop or a rope: right there no zone is the right one, and they cycle.
 What is left of the way counts as none in the next step."""
+NOT_SEEN = 2.0
+"""As the share of a step after which a machine left its zone: no guard of it was above zero."""
 NOTHING = 1e-6
 """Share of a step so near its start that what follows a table there by a stiff law has no difference to follow. At a
 thousandth the speeds of line on the two pieces of a drum's radius differ by 1e-5 m/s, which a bond of 1e9 N s/m shows
@@ -46,14 +48,18 @@ def forget_switches(contacts):
     """Before a step: nothing has switched in it."""
     switched = indices(contacts.at_switched, contacts.n_machines)
     after = reals(contacts.at_switched_after, contacts.n_machines)
+    reals(contacts.at_left_at, contacts.n_machines)[:] = NOT_SEEN
     for k in range(contacts.n_switched):
         after[switched[k]] = 0.0
     contacts.n_switched = 0
 
 
 @compiled
-def note_switches(guards, stepping):
-    """Of the machines whose guards are in `fired` those that leave their zone for the first time, and when."""
+def note_switches(guards, stepping, h):
+    """Of the machines whose guards are in `fired` those that leave their zone for the first time, and when.
+
+    A force is at its limit where the line through the middles of two steps has it there: that only tells the instant.
+    """
     exchange, contacts = stepping.exchange, stepping.contacts
     fired, machine, hold_row = (
         indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards),
@@ -65,11 +71,16 @@ def note_switches(guards, stepping):
     )  # fmt: skip
     switched = indices(contacts.at_switched, exchange.n_machines)
     after = reals(contacts.at_switched_after, exchange.n_machines)
+    left = reals(contacts.at_left_at, exchange.n_machines)
+    limit, gap = indices(contacts.at_limit_guard, guards.n_guards), stepping.rule.gap / h
     for k in range(guards.n_fired):
         i, z = fired[k], machine[fired[k]]
-        if z < 0 or after[z] > 0.0 or zones[z] != before[z] or (hold_row[z] >= 0 and holds[hold_row[z]] == 1):
+        if z < 0 or after[z] > 0.0 or zones[z] != before[z]:
             continue
         s = zero_of_guard(guards, i)
+        left[z] = min(left[z], max(s * (gap + 0.5) - gap, 0.0) if limit[i] == 1 else s)
+        if hold_row[z] >= 0 and holds[hold_row[z]] == 1:
+            continue
         if 0.0 < s < 1.0:
             switched[contacts.n_switched] = z
             after[z] = s

@@ -186,7 +186,7 @@ def switch_zones(m, h):
     """Switch the zones whose guards are violated: ONCE_MORE, CYCLES, or JUMPS where a law jumps."""
     run, point, guards, settling, rule = m.run, m.point, m.events.guards, m.events.settling, m.stepping.rule
     contacts = m.stepping.contacts
-    note_switches(guards, m.stepping)
+    note_switches(guards, m.stepping, h)
     if settling.passes > 0:
         learn_from_neighbours(run, guards, contacts)
     known = all_continuous(guards, contacts)

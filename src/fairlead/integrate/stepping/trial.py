@@ -32,7 +32,6 @@ from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_c
 from fairlead.integrate.events.given_apart import judge_given
 from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
 from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose
-from fairlead.integrate.events.settling import log_changes
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.one_step import piece_is_rough, take_piece
@@ -42,6 +41,7 @@ from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, show_inside
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
+from fairlead.integrate.stepping.instants import log_inside
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
 from fairlead.integrate.stepping.located_step import balance_end, holds_with_slip, remember_middle, stop_slip
 from fairlead.integrate.stepping.repeated import (
@@ -239,13 +239,7 @@ def arrive_with_zones(m):
         return BUFFER_FULL
     switched = settling.passes > 0
     if switched:
-        start, m.point.t = m.point.t, run.t_piece
-        zones_at_start = indices(m.stepping.contacts.at_zones_at_start, problem.n_machines)
-        copy(zones_at_start, indices(settling.at_zones_before, problem.n_machines))
-        guards.n_fired = 0
-        settling.passes = 0
-        log_changes(m)
-        m.point.t = start
+        log_inside(m)
     copy(reals(guards.at_g, problem.n_guards), reals(m.stepping.contacts.at_g_before, problem.n_guards))
     if problem.samples == 1 and run.landing == 1 and run.t_piece >= run.t_next and run.t_piece < run.stop:
         run.crossed = 1  # settled before the sample is taken: forces are those of the middle of the step until then
