@@ -101,7 +101,7 @@ def arrive(m, by_equations):
         if (keep_positions(problem, point, linear) if kept else correct_forces(problem, point, linear)) == INACCURATE:
             return REPLAN
         judge_again(problem, run, point, events)
-        at_shown = as_shown(m, point.at_y, True)
+        at_shown = as_shown(m, point.at_y, True) if run.crossed == 0 else point.at_y  # else `at_limit` is written
     run.phase = TRY
     if run.crossed == 1:
         run.located += 1

@@ -42,6 +42,18 @@ def floor_here(run, point):
 
 
 @compiled
+def is_within_floor(run, point, gap):
+    """True if a gap [s] is below the progress floor here; of one that no motion could make so long none is asked."""
+    return gap < max(run.progress_floor, RESOLVED * abs(point.t)) and gap < floor_here(run, point)
+
+
+@compiled
+def is_within_dwell(run, point, gap):
+    """True if a gap [s] is below the dwell here; of one that no motion could make so long none is asked."""
+    return gap < run.dwell and gap < dwell_here(run, point)
+
+
+@compiled
 def dwell_here(run, point):
     """The dwell [s] that counts at the point."""
     if run.dwell_given == 1:
@@ -67,7 +79,7 @@ def watch_progress(problem, run, point, events):
     guards, settling = events.guards, events.settling
     if guards.n_fired == 0:
         return
-    settling.stalls = settling.stalls + 1 if point.t - settling.t_last_switch < floor_here(run, point) else 0
+    settling.stalls = settling.stalls + 1 if is_within_floor(run, point, point.t - settling.t_last_switch) else 0
     settling.t_last_switch = point.t
     if settling.stalls >= STALL_LIMIT:
         fired, machine = indices(guards.at_fired, guards.n_guards), indices(guards.at_guard_machine, guards.n_guards)
@@ -85,7 +97,7 @@ def watch_chatter(m, z):
     run, point, settling = m.run, m.point, m.events.settling
     last, streak = reals(settling.at_last_toggle, settling.n_machines), indices(settling.at_streak, settling.n_machines)
     if point.t > last[z]:
-        streak[z] = streak[z] + 1 if point.t - last[z] < dwell_here(run, point) else 0
+        streak[z] = streak[z] + 1 if is_within_dwell(run, point, point.t - last[z]) else 0
         last[z] = point.t
         if streak[z] >= CHATTER_STREAK and not bounces(m.problem, z):
             indices(settling.at_chatters, settling.n_machines)[z] += 1

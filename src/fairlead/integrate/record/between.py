@@ -110,6 +110,7 @@ def balance_stiff(m, t, s, at_y):
         reals(point.at_u, n),
     )  # fmt: skip
     stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
+    weight, relative = reals(point.at_weight, n), reals(point.at_relative, n)
     for k in range(n):
         inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
         inner_slope = D[n + k] + 2.0 * s * D[2 * n + k]
@@ -138,6 +139,8 @@ def balance_stiff(m, t, s, at_y):
         gone = before[k] - left
         if mine and before[k] * gone > 0.0:
             share = before[k] / gone
+            if share > FURTHEST and abs(move[k]) * relative[k] <= SHOWN_ROUNDING * weight[k]:
+                share = 1.0
             further = further or share > FURTHEST
             move[k] = (min(share, FURTHEST) - 1.0) * move[k]
             before[k] = left if share > FURTHEST else 0.0
