@@ -39,6 +39,9 @@ from fairlead.integrate.point.swings import judge_swings
 
 ROUGH = 10.0
 """Error weights by which the dense output may be off the equations where a step is cut at a crossing."""
+ROUGH_AT_STOP = 0.1
+"""The same where a stop is met. A body rebounds with its speed, again and again until that is some ten weights, where
+it lies. Ten weights more in each flight than there were would keep it bouncing for ever."""
 NEGLIGIBLE = 1e-6
 """Share of the absolute weight of a force below which it is nothing in its scene, whatever its limit: rounding of
 others would else be asked of."""
@@ -158,7 +161,19 @@ def is_rough(problem, run, point, guards, linear, h):
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
     find_defect(problem, point, linear, h, run.cut_at)
-    return not weighted_norm(point, point.at_error_vector) <= ROUGH or limits_are_rough(problem, point, guards)
+    most = ROUGH_AT_STOP if meets_stop(problem, guards) else ROUGH
+    return not weighted_norm(point, point.at_error_vector) <= most or limits_are_rough(problem, point, guards)
+
+
+@compiled
+def meets_stop(problem, guards):
+    """True if a stop that takes any impulse is met."""
+    met, fired = indices(problem.at_met_guard, problem.n_met_guards), indices(guards.at_fired, guards.n_guards)
+    found = False
+    for i in met:
+        for k in range(guards.n_fired):
+            found = found or fired[k] == i
+    return found
 
 
 @compiled
