@@ -85,6 +85,10 @@ class Station(Family, abstract=True):
         """Radius of a drum at which a line of this diameter [m] leaves it, with `stored` [m] of it on the drum [m]."""
         raise NotImplementedError
 
+    def layer_at(p, stored, diameter):
+        """The layer of a drum that the line leaves, from 1; None of one without layers."""
+        return None
+
     def takes(p, diameter):
         """How much of the model's line, of this diameter [m], a drum takes [m]."""
         return math.inf
@@ -128,6 +132,10 @@ class Station(Family, abstract=True):
     def draws(p, t):
         """Force that draws a loop of line out [N]; None for a device without a loop."""
         return None
+
+    def loosest(p, t):
+        """Least tension with a loop drawn out as far as it goes, short of its stop [N]; asked where `draws` is told."""
+        return 0.0
 
     def machinery(p, scene):
         """The bodies that move; None for a device that stands."""

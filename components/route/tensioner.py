@@ -34,6 +34,10 @@ class Tensioner(Station):
         """The force on the carriage, which carries both sides of the loop."""
         return p.force(t)
 
+    def loosest(p, t):
+        """(force - stiffness stroke)/2, or nothing where the spring would push the line."""
+        return max(p.force(t) - p.stiffness * p.stroke, 0.0) / 2
+
     def machinery(p, scene):
         """Carriage and dancer."""
         dancer = {name: p.given[name] for name in ("force", "stiffness", "damping", "stroke", "stop_stiffness")}

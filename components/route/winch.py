@@ -62,6 +62,10 @@ class Winch(Station):
         """The radius, which grows by layers if they are on."""
         return p.radius if p.layers == "off" else p.wound(diameter).radius_at(p.filled + stored)
 
+    def layer_at(p, stored, diameter):
+        """The layer that the line leaves, from 1, if layers are on."""
+        return None if p.layers == "off" else p.wound(diameter).filled(p.filled + stored)[0] + 1
+
     def wound(p, diameter):
         """Layers of a line of this diameter [m] on the drum."""
         return Layers(p.radius, p.line_diameter or diameter, p.width, p.packing == "nested", p.height)

@@ -24,6 +24,7 @@ import numpy as np
 from fairlead.analysis.record.ends import Ends, Limit
 from fairlead.analysis.record.suggestion import suggest
 from fairlead.analysis.record.unsettled import with_way_out
+from fairlead.analysis.record.zone_changes import ZoneChanges
 from fairlead.arguments import Arguments, keywords_told
 from fairlead.engine import engine_settings, refused
 from fairlead.errors import ModelError, NoCopyError, SteppingError, UsageError, did_you_mean, listing, shown
@@ -44,7 +45,6 @@ from fairlead.system.compiled.asking import call
 from fairlead.system.compiled.opened import opened
 from fairlead.system.compiled.system import EVERYTHING
 from fairlead.tuning import Tunable, differs, gone_on
-from fairlead.watch import named_change
 
 if TYPE_CHECKING:
     from fairlead.integrate.engine import Engine
@@ -82,7 +82,7 @@ class Stepping:
         """Names of parameters that can be set."""
         self.changes: list[Change] = []
         """Zone changes in the last `advance`, in order."""
-        self._of = system
+        self._of, self._named = system, ZoneChanges(system)
         recorded = system.recording(record).recorded
         self._ends = Ends.of(system, recorded)
         self._inputs, faults = find_inputs(netlist, system, inputs)
@@ -343,7 +343,7 @@ class Stepping:
         return said, self.t
 
     def _take(self, block: Block) -> None:
-        self.changes += [Change(*named_change(self._of, row)) for row in block.events]
+        self.changes += [Change(*row) for row in self._named.of(block.events)]
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
         """A run is not copied: its memory is used by compiled code. Raises NoCopyError."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import pandas
 
 STATIONS = {
-    "state": "", "speed": "m/s", "station": "", "from": "m", "to": "m", "inboard": "N", "outboard": "N",
+    "state": "", "layer": "", "speed": "m/s", "station": "", "from": "m", "to": "m", "inboard": "N", "outboard": "N",
     "side_wall": "N/m", "side_wall_margin": "", "core": "N", "hose": "N", "bulkheads_slip": "", "ruck_margin": "",
 }  # fmt: skip
 """Columns of the table of stations, with their units."""
@@ -43,7 +43,7 @@ class Statics(analysis.Statics):
 
     def stations(self) -> Table:
         """A row for each station in each state of motion: tensions, load on the wall, layers, margins."""
-        rows = ({**row, "state": state["state"], "speed": state["speed"]}
+        rows = ({**row, "state": state["state"], "layer": state["layer"], "speed": state["speed"]}
                 for state in self.record["states"] for row in state["stations"])  # fmt: skip
         return _table(f"{self._named()}: statics in motion", STATIONS, rows)
 

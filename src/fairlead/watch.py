@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ from fairlead.analysis.record.strains import Strains
 from fairlead.analysis.record.used_up import UsedUp
 from fairlead.analysis.record.went_round import WentRound
 from fairlead.analysis.record.wind_up import WindUp
+from fairlead.analysis.record.zone_changes import ZoneChanges
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
 from fairlead.results import Sink
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 
 SIDES = np.array([ORDINARY, BEFORE, AFTER, INSIDE], dtype=np.int8)  # by the side of a row of `integrate.problem.Block`
 MOST_JUMPS_TOLD = 5
-ZoneChange = tuple[float, str, str, str, str]  # when [s], whose, zones before and after, guard
 CONTINUOUS = 0.1  # times the accuracy, of the largest value so far: differences across an event that are none
 
 
@@ -72,7 +72,7 @@ class Watch:
     begun: bool = field(init=False)
     extremes: Extremes = field(init=False)
     thinning: Thinning = field(init=False)
-    names: dict[tuple[int, ...], tuple[str, str, str, str]] = field(init=False)  # by machine, zones and guard
+    changes: ZoneChanges = field(init=False)
     creeping: NDArray[np.int64] = field(init=False)  # columns of what `creep` watches
     metered: NDArray[np.int64] | None = field(init=False, default=None)  # and of what `ledger` does
 
@@ -80,7 +80,8 @@ class Watch:
         """Find the columns."""
         self.steps, self.batches, self.begun = WholeSteps(), Batches(len(self.recording.recorded)), False
         self.extremes = Extremes(len(self.recording.recorded))
-        self.thinning, self.names = Thinning(self.accuracy, len(self.recording.chosen)), {}
+        self.thinning = Thinning(self.accuracy, len(self.recording.chosen))
+        self.changes = ZoneChanges(self.system)
         columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
         self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
         if "energy.supplied" in columns:
@@ -107,7 +108,7 @@ class Watch:
         whole = self.steps.take(rows._replace(values=rows.values[:, asked]))
         if whole is not None:
             self._take_steps(whole)
-        self.sink.events(self._named(block.events))
+        self.sink.events(self.changes.of(block.events))
         if self.together is not None:
             self.together.watch(block.events)
         self.gave_way.watch(block.events)
@@ -122,14 +123,6 @@ class Watch:
             self.ledger.watch(block.values[:, self.metered])
         if self.progress is not None:
             self.progress(block.fraction, block.reached, None)
-
-    def _named(self, events: NDArray[Any]) -> Iterator[ZoneChange]:
-        """Zone changes with names; those of a change are looked up once."""
-        for row in events.tolist():
-            change = row[1:5]
-            if change not in self.names:
-                self.names[change] = names_of_change(self.system, *change)
-            yield row[0], *self.names[change]
 
     def _take_steps(self, rows: Rows) -> None:
         if self.event_rows is None and self.columns is not None:
@@ -184,15 +177,3 @@ def least_jumps(system: System, chosen: Sequence[OutputSignal], accuracy: float)
         stairs = set(range(len(s.outputs))) - {k for k, _ in s.d_signals} if s.period else set()
         held |= {f"{instance.path}.{s.outputs[k]}" for instance in block.instances for k in stairs}
     return np.array([np.inf if one.name in held else CONTINUOUS * accuracy for one in chosen])
-
-
-def named_change(system: System, row: Any) -> ZoneChange:
-    """One zone change with names."""
-    change = (int(row[name]) for name in ("machine", "before", "after", "guard"))
-    return float(row["t"]), *names_of_change(system, *change)
-
-
-def names_of_change(system: System, machine: int, before: int, after: int, guard: int) -> tuple[str, str, str, str]:
-    """Contact, zones before and after, and guard of a change."""
-    zones = system.zone_names(machine)
-    return system.machine_names[machine], zones[before], zones[after], system.guard_name(guard, machine, before)

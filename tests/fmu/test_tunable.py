@@ -248,6 +248,56 @@ def test_a_speed_at_the_start_is_set_before_it_only():
     assert [one.when for one in made_of(asked).tuned] == [BEFORE, ALWAYS]
 
 
+LAWS = {
+    "30*x^3": lambda x: 30 * x**3, "20*x^1.5 + 7": lambda x: 20 * x**1.5 + 7,
+    "100*(x - 0.4)^2": lambda x: 100 * (x - 0.4) ** 2,
+    "5*x^4 - 1": lambda x: 5 * x**4 - 1, "900/x^3": lambda x: 900 / x**3, "90/x^1.5": lambda x: 90 / x**1.5,
+    "70/x^4 + 3": lambda x: 70 / x**4 + 3, "(2*x - 7)^2": lambda x: (2 * x - 7) ** 2,
+}  # fmt: skip
+
+
+def test_powers_with_a_factor_and_an_offset_and_squares_of_lines_are_followed(tmp_path):
+    """Springs that hold 1 N: each is stretched by 1 N over its stiffness, whatever x is set to."""
+    needs_compiler()
+    fmpy()
+    parts, joins, out = [], [], []
+    for k, law in enumerate(LAWS):
+        law = law.replace("^", "**")
+        parts.append(f"""  s{k}: {{type: SpringDamper, stiffness: "{{{law}}} N/m", damping: 40 N*s/m}}
+  m{k}: {{type: Mass, mass: 1 kg}}
+  f{k}: {{type: ForceSource, force: 1 N}}""")
+        joins.append(f"[wall.flange, s{k}.a], [s{k}.b, m{k}.flange, f{k}.flange]")
+        out.append(f"m{k}.x")
+    text = f"""parameters: {{x: 3}}
+components:
+  wall: {{type: Ground}}
+{chr(10).join(parts)}
+connections: [{", ".join(joins)}]
+run: {{stop: 200 s, accuracy: 1e-8}}
+"""
+    file = export(model(tmp_path, "laws", text), tmp_path / "laws.fmu", outputs=out, tunable=["x"])
+    with slave(file, tmp_path) as one:
+        one.fmu.exitInitializationMode()
+        one.step(1.0)
+        one.set("x", 2.2)
+        one.step(150.0)
+        assert one.get(*out) == pytest.approx([1 / law(2.2) for law in LAWS.values()], rel=1e-4)
+
+
+@pytest.mark.parametrize("value", ["100*x**2 + 50*x", "100 + 20*sin(x)", "30*x**2.5", "100*abs(x - 2)"])
+def test_other_laws_are_refused(tmp_path, value):
+    text = f"""parameters: {{x: 3}}
+components:
+  wall: {{type: Ground}}
+  s: {{type: Spring, stiffness: "{{{value}}} N/m"}}
+  m: {{type: Mass, mass: 1 kg}}
+connections: [[wall.flange, s.a], [s.b, m.flange]]
+run: {{stop: 1 s}}
+"""
+    with pytest.raises(UsageError, match="by a law that the FMU cannot work out"):
+        made_of(asked_of(model(tmp_path, "other", text), (), ["m.x"], ["x"], {}, "export"))
+
+
 REFUSED = {
     "line.element": "the structure depends on it",
     "line.bulkhead_friction.velocity": "by a law that the FMU cannot work out",

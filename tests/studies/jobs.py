@@ -46,6 +46,11 @@ class FunctionJob:
     units: dict[str, str]
 
     @property
+    def about(self):
+        """Nothing is known of its parameters."""
+        return {}
+
+    @property
     def limited(self):
         """A function has no limits."""
         return False

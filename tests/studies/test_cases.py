@@ -1,6 +1,7 @@
 """Cases in memory: figures against closed forms of the block on the belt, and what goes wrong in one case."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from fairlead.errors import ModelError
 from fairlead.integrate.problem import Block, End
 from fairlead.watch import Watch
 
+PARTS = Path(__file__).parents[2] / "models" / "single_parts"
 # Block on a belt (tests/reference): stiffness 100 N/m, mass 1 kg, belt 0.2 m/s, stiction 10 N, sliding 6 N.
 # It sticks until the spring pulls with 10 N, slips about x = 0.06 m, and comes to the speed of the belt again.
 MODEL, OMEGA, SPEED = fairlead.load("belt", set={"run.accuracy": "1e-8"}), 10.0, 0.2
@@ -247,3 +249,22 @@ def test_a_peak_close_to_the_end_of_a_step_is_found(scene) -> None:
     found = np.array([cases.row({"s0.stiffness": k, "run.stop": 0.3}).figures["peak"] * math.sqrt(k)
                       for k in np.linspace(90.0, 110.0, 60)])  # fmt: skip
     assert np.abs(found - 1.0).max() < 2e-8
+
+
+@pytest.mark.parametrize("model", ["unwinder", "arm_with_cylinder"])
+def test_an_engine_that_does_not_run_a_model_refuses_the_case(model: str) -> None:
+    """It had the status of a mistake in fairlead or in a figure, `error`."""
+    named = fairlead.load(PARTS / f"{model}.yaml", set={"run.stop": "0.1 s"})
+    signal = named.system.signals[0].name
+    row = Cases(named, {"most": f"peak({signal})"}).row({"run.engine": "stepping"})
+    assert row.status == "refused"
+    assert row.sentence.startswith("run.engine: stepping does not")
+    assert "Take run.engine: rodas" in row.sentence
+
+
+def test_a_figure_that_raises_is_an_error_and_no_refusal() -> None:
+    def wants_a_folder(result):
+        return len(str(result.folder))
+
+    row = Cases(fairlead.load("belt", set={"run.stop": "0.1 s"}), {"own": wants_a_folder}).row({})
+    assert row.status == "error"

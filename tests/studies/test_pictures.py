@@ -3,8 +3,10 @@
 import math
 
 import pytest
+from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
+from fairlead.cases import Cases
 from fairlead.cli import app
 from fairlead.errors import UsageError
 from fairlead.studies.sweeps.design import Design, Sample
@@ -152,3 +154,49 @@ def test_cases_that_stand_twice_in_a_design_were_not_there_before(tmp_path) -> N
     assert (standing.reused, standing.twice) == (1, 1)
     _, standing = sweep(job(square), Design(grid={"x": ["1", "2", "1"]}), tmp_path, processes=0)
     assert (standing.reused, standing.twice) == (3, 0)
+
+
+PUSHED = """
+    parameters: {push: 2 kN, share: 0.2}
+    components:
+      floor: {type: Ground}
+      crate: {type: Mass, mass: 2 kg}
+      skid: {type: Contact, normal_force: 10 N, curve: "{share}"}
+      hand: {type: ForceSource, force: "{push}"}
+    connections: [[floor.flange, skid.a], [crate.flange, skid.b, hand.flange]]
+    run: {stop: 0.1 s}
+"""
+
+
+def test_parameters_of_pictures_have_units_and_what_they_are(scene, tmp_path) -> None:
+    """Values of a table are in SI; a parameter that the scene does not give, such as `position`, has a unit too."""
+    grid = {"push": ["1 kN", "2 kN"], "skid.normal_force": ["5 N", "10 N"], "crate.position": ["0 m", "5 mm"]}
+    sweep(Cases(scene(PUSHED), {"end": "end(crate.x)"}), Design(grid=grid), tmp_path / "sweep", processes=0)
+    rows, drawn = Rows.read(tmp_path / "sweep"), {}
+    for name, make, _ in fitting(rows):
+        make(figure := Figure(), rows, "end")
+        drawn[name] = figure
+    ax, bar = drawn["heat_map"].axes
+    assert ax.get_xlabel() == "push [N]"
+    assert ax.get_ylabel().splitlines()[0] == "skid.normal_force [N]"
+    assert ax.get_ylabel().splitlines()[1].startswith("Normal force")
+    assert bar.get_ylabel() == "end [m], mean over crate.position"
+    (legend,) = drawn["response"].legends
+    told = [text.get_text().replace("\u00a0", " ") for text in legend.get_texts()]
+    assert told[1] == "skid.normal_force = 5 N, crate.position = 0.005 m"
+    ends = {text.get_text().strip().replace("\u00a0", " ") for text in drawn["tornado"].axes[0].texts}
+    assert {"1000 N", "2000 N", "5 N", "10 N"} <= ends
+
+
+def test_a_tornado_of_a_grid_takes_its_values_however_many_there_are(tmp_path) -> None:
+    grid = {"x": [str(k) for k in range(11)], "y": ["0", "10"]}
+    sweep(job(line, "z"), Design(grid=grid), tmp_path, processes=0)
+    wide, _ = tornado(Rows.read(tmp_path), "z")
+    assert (wide.at_low, wide.at_high, wide.low, wide.high) == ("0", "10", -5.0, 25.0)
+
+
+def test_a_table_from_before_units_of_parameters_is_drawn_without_them(tmp_path) -> None:
+    sweep(job(line, "z"), Design(grid={"x": ["0", "1"], "y": ["0", "10"]}), tmp_path, processes=0)
+    rows = Rows.read(tmp_path)
+    del rows.heading["about"]
+    assert (rows.label("x"), rows.value("x", 0.5)) == ("x", "0.5")

@@ -3,7 +3,9 @@
 import json
 import math
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -12,6 +14,7 @@ from fairlead.cli import app
 from fairlead.component.numbers import numbers
 from fairlead.errors import FairleadError, ModelError, UsageError
 from fairlead.fmu import export
+from fairlead.studies.sensitivities.derivative import derivative
 
 BELT = fairlead.load("belt", set={"run.accuracy": "1e-8", "run.stop": "4 s"})
 
@@ -245,3 +248,56 @@ def test_every_number_that_is_offered_is_set_by_its_name(name):
         changed = model.beside({one: 0.99 * value}, None)
         assert numbers(changed.netlist, changed.assembly.entries)[one][0] == pytest.approx(0.99 * value), one
     assert name != "single_bend" or offered["route.stations.bend.friction"] == (0.35, "1")
+
+
+class Rough:
+    """Runs of one parameter whose figure has given slopes at every step, below and above."""
+
+    accuracy = 1e-4
+    varied = (SimpleNamespace(name="push", value=1.0, scale=1.0, at=lambda change: 1.0 + change),)
+
+    def __init__(self, slope):
+        self.slope, self.made = slope, {}
+
+    def step(self, index, change):
+        return np.array([change])
+
+    def at(self, z):
+        value = 1.0 + z[0] * self.slope(z[0])
+        point = SimpleNamespace(figure=lambda name: value, row=SimpleNamespace(ok=True), events=())
+        return self.made.setdefault(tuple(z.tolist()), point)
+
+    def along(self, index, change):
+        return self.at(self.step(index, change))
+
+    def figure(self, name):
+        return lambda z: np.array([self.at(z).figure(name)])
+
+
+def told_of(slope):
+    runs, far = Rough(slope), np.array([0.05])
+    runs.at(np.zeros(1))
+    return derivative(runs, "peak", 0, (-far, far), 1e-12, "1")
+
+
+def scattered(seed, size):
+    """A function of the step that has another value at each, within +- size."""
+    return lambda z: float(np.random.default_rng([seed, *np.array([z]).view(np.uint32)]).uniform(-size, size))
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_slopes_that_scatter_are_no_corner_and_what_they_differ_by_is_error(seed) -> None:
+    """Slopes of 1 +- 4 % on both sides, another at each step: the noise of runs whose steps differ."""
+    noise = scattered(seed, 0.04)
+    one = told_of(lambda z: 1.0 + noise(z))
+    assert one.status == "smooth"
+    assert one.value == pytest.approx(1.0, abs=0.041)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_corner_under_noise_of_a_tenth_of_it_is_one(seed) -> None:
+    """Slopes of 0.9 and 1.1, each with a scatter of +- 0.02."""
+    noise = scattered(seed, 0.02)
+    one = told_of(lambda z: (0.9 if z < 0 else 1.1) + noise(z))
+    assert one.status == "corner"
+    assert (one.below, one.above) == (pytest.approx(0.9, abs=0.021), pytest.approx(1.1, abs=0.021))

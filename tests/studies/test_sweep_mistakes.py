@@ -5,10 +5,11 @@ import pytest
 import fairlead
 from fairlead.cases import Cases
 from fairlead.cases.figures import read_figures
-from fairlead.errors import ModelError
+from fairlead.errors import Location, ModelError
+from fairlead.studies.fits.measured import read_table
 from fairlead.studies.sweeps.design import Design
 from fairlead.studies.sweeps.distributions import read_distribution
-from fairlead.studies.sweeps.plan import figures_of_options
+from fairlead.studies.sweeps.plan import Asked, figures_of_options
 from fairlead.studies.sweeps.ranges import RangeError, read_range
 from fairlead.studies.sweeps.sweep import sweep
 
@@ -103,3 +104,38 @@ def test_a_figure_that_there_is_not_is_refused_with_what_there_is(text, why) -> 
     with pytest.raises(ModelError, match=why) as raised:
         read_figures({"one": text}, fairlead.load("belt"))
     assert all(fault.way_out for fault in raised.value.faults)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("pad.normal_force;block.mass\n10;1\n", "separated by semicolons: pad.normal_force;block.mass"),
+        ("pad.normal_force;block.mass\n10,5;1\n", "separated by semicolons"),
+        ("pad.normal_force\tblock.mass\n10\t1\n", "separated by tabs"),
+        ("pad.normal_force\n10,5\n", "numbers have a point"),
+    ],
+)
+def test_cases_that_a_spreadsheet_parted_otherwise_are_told_so(tmp_path, text, told) -> None:
+    (tmp_path / "cases.csv").write_text(text)
+    asked = Asked()
+    asked.read_csv(tmp_path / "cases.csv")
+    (fault,) = asked.faults
+    assert told in f"{fault.what} {fault.way_out}"
+    assert not asked.listed
+
+
+def test_a_record_for_a_fit_that_is_parted_by_semicolons_is_told_so(tmp_path) -> None:
+    """It had one column with the name `time;x`."""
+    (tmp_path / "record.csv").write_text("time;x [m]\n0;1\n1;2\n2;3\n3;4\n")
+    table, (fault,) = read_table(tmp_path / "record.csv", Location("file"))
+    assert table is None
+    assert "separated by semicolons" in fault.what
+
+
+@pytest.mark.parametrize(("of", "to", "told"), [
+    ("peak(block.x)", [], "to: no parameter is named"), ("peak(block.x)", {}, "to: no parameter is named"),
+    ([], "pad.normal_force", "of: no figure is named"),
+])  # fmt: skip
+def test_an_empty_list_is_not_taken_for_a_scene_without_numbers(of, to, told) -> None:
+    with pytest.raises(ModelError, match=told):
+        fairlead.sensitivity(fairlead.load("belt"), of, to)

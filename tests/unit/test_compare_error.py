@@ -95,3 +95,25 @@ def test_the_error_does_not_depend_on_how_often_the_scene_is_recorded(scene, tmp
         errors.append([row.error for row in found.rows])
     assert errors[0] == pytest.approx(errors[1], rel=1e-9)
     assert errors[0][1] > 2 * errors[0][0] > 0.0
+
+
+@pytest.mark.parametrize("order", [["1e-2", "1e-5"], ["1e-5", "1e-2"]])
+def test_the_reference_is_finer_than_the_finest_accuracy_of_the_list(scene, tmp_path, order):
+    """It was a hundredth of the first, 1e-4: its own error was told as that of the run at 1e-5."""
+
+    def load(settings):
+        return scene(SWINGS, **settings)
+
+    found = compare(load, {"run.accuracy": order}, settings={"run.stop": "3 s"}, out=tmp_path / "compared")
+    assert found.reference == "the scene at accuracy 1e-07"
+    t = np.linspace(0.0, 3.0, 4001)
+    for row in found.rows:
+        run = scene(SWINGS).run(out=None, accuracy=float(row.label), stop=3.0)
+        right = float(np.sqrt(np.mean((run.at("m.x", t) - closed(t)) ** 2)) / np.ptp(closed(t)))
+        assert row.error == pytest.approx(right, rel=0.2)
+
+
+def test_a_parameter_that_the_accuracy_is_made_of_counts_as_well(scene, tmp_path):
+    text = f"{SWINGS}    parameters: {{fine: 1e-3}}".replace("stop: 20 s", "stop: 1 s, accuracy: '{fine}'")
+    found = compare(lambda chosen: scene(text, **chosen), {"fine": ["1e-3", "1e-5"]}, out=tmp_path / "compared")
+    assert found.reference == "1e-5 at accuracy 1e-07"

@@ -37,3 +37,12 @@ def _shown(ax):
     low, high = sorted(ax.get_xlim())
     ticks = [*ax.xaxis.get_major_ticks(), *ax.xaxis.get_minor_ticks()]
     return [tick.label1 for tick in ticks if tick.label1.get_text() and low <= tick.get_loc() <= high]
+
+
+def test_a_bar_has_its_number_and_a_dot_says_what_it_is():
+    """Without them a dot at the left edge could be none, zero or rounding, and a bar is read off a logarithm."""
+    rows = (Row("hold", "finished", "", error=2.5e-5, creep=3e-17, steps=932, switches=0, seconds=0.0063),)
+    with mpl.rc_context(STYLE):
+        figure = figure_of(Comparison(rows, "hold at accuracy 1e-07", Path()))
+    told = [[text.get_text() for text in ax.texts] for ax in figure.axes]
+    assert told == [["2.5e-05"], ["rounding"], ["932"], ["0"], ["0.0063"]]

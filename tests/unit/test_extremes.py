@@ -7,6 +7,7 @@ import fairlead.analysis.record.extremes as extremes_module
 from fairlead.analysis.record.event_rows import Rows
 from fairlead.analysis.record.extremes import Extremes, peak_of_curves
 from fairlead.analysis.record.step_rows import INSIDE, LEAST_ROWS, MOST_ROWS, MOST_VALUES, Batches
+from fairlead.results.plateau import first_row
 
 PEAK = 1700.3 * np.pi
 
@@ -58,9 +59,9 @@ def test_only_the_stretches_near_to_the_best_so_far_are_looked_up(monkeypatch):
     """A hundred signals rest; one was at 0 and rises, so that each stretch of it is above all before."""
     looked = []
 
-    def counted(values, column, sign, stretch, length):
+    def counted(values, column, sign, stretch, length, near):
         looked.append(len(stretch))
-        return first_best(values, column, sign, stretch, length)
+        return first_best(values, column, sign, stretch, length, near)
 
     first_best = extremes_module._first_best
     monkeypatch.setattr(extremes_module, "_first_best", counted)
@@ -95,3 +96,29 @@ def test_of_two_peaks_close_to_each_other_the_higher_one_is_found():
         side = np.where(np.arange(len(t)) % 4, INSIDE, 0).astype(np.int8)
         extremes.watch(Rows(t, values[:, None], side))
         assert extremes.highest[0] == pytest.approx(exact.max(), abs=2e-4)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("rounding", [0, 1e-15, 1e-13])
+def test_an_extreme_that_lasts_is_told_when_it_begins_whatever_rounding_does(sense, rounding):
+    """A ramp to 1 in 3 s that stays there for 100 s and grows by its last digits; and one that starts there."""
+    rows, batches, extremes = steps_of(1), Batches(2), Extremes(2)
+    t = rows.t[rows.t <= 103.0]
+    noise = rounding * t / 100.0
+    falls = 1.0 - np.maximum(t - 50.0, 0.0) / 53.0
+    values = np.stack([np.minimum(t / 3.0, 1.0) + noise, falls + noise], axis=1)
+    whole = Rows(t, sense * values, rows.side[: len(t)])
+    for k in range(0, len(t), 37):
+        for batch in batches.take(whole.where(slice(k, k + 37))):
+            extremes.watch(batch)
+    extremes.watch(batches.rest())
+    value, when = (extremes.highest, extremes.t_highest) if sense > 0 else (-extremes.lowest, extremes.t_lowest)
+    assert value == pytest.approx([1.0, 1.0], abs=3 * rounding)
+    assert when == pytest.approx([3.0, 0.0], abs=1e-6)
+
+
+def test_rows_alone_tell_the_first_of_equal_values():
+    values = np.array([np.nan, 0.0, 1.0, 1.0 + 1e-15, 0.5, 1.0 + 2e-15, 0.0 - 1e-16])
+    assert first_row(values, least=False) == 2
+    assert first_row(values, least=True) == 1
+    assert first_row(np.array([3.0, 3.0 + 1e-9]), least=False) == 1  # two numbers that differ

@@ -319,6 +319,23 @@ def test_a_contact_that_turns_round_slides_once(tmp_path: Path) -> None:
     assert said["pad"] == "It sticks at first. It slides once, first from 1 s to 6 s; 50 % of the time."
 
 
+@pytest.mark.parametrize("zones", [["forward", "backward", "closed"], ["linear", "forward", "backward"]])
+def test_a_valve_that_is_open_either_way_does_not_slide(tmp_path: Path, zones: list[str]) -> None:
+    """A servo valve, and a drive at its limits: they have words of a contact, but none for sticking or lifting off."""
+    to_and_fro = ("forward", "backward")
+    changes = [(k, "valve.lands", *to_and_fro[:: 1 if k % 2 else -1]) for k in range(1, 8)]
+    has = [zones[-1], *zones[:-1]] if zones[0] == "linear" else zones
+    said = told(tmp_path, [of("valve.lands", has)], *changes)["valve.lands"]
+    assert "slide" not in said
+    assert "is forward" in said or "is backward" in said
+
+
+@pytest.mark.parametrize("zones", [["forward", "backward", "off"], ["held", "forward", "backward"]])
+def test_a_contact_that_slides_to_and_fro_does(tmp_path: Path, zones: list[str]) -> None:
+    changes = [(k, "pad", *("forward", "backward")[:: 1 if k % 2 else -1]) for k in range(1, 8)]
+    assert "slides" in told(tmp_path, [of("pad", zones)], *changes)["pad"]
+
+
 def test_a_state_machine_is_told_by_its_states_and_not_by_its_comparators(tmp_path: Path) -> None:
     said = told(tmp_path, [of("box.step", ["below"]), of("box.machine", ["draining"])],
                 (1.0, "box.step", "below", "above"), (2.0, "box.step", "above", "below"),
@@ -357,3 +374,36 @@ def test_the_page_of_a_scene_without_a_line_has_no_words_about_lines(tmp_path: P
     assert not re.search(r"\b(rucks?|hose|outboard|inboard|de-registration)\b", shown)
     assert 'href="#maps"' not in shown
     assert "No energy passed" in shown
+
+
+HOME = "/home/somebody/secret project"
+
+
+def of_somebody(folder: Path, status: str = "finished") -> Result:
+    """A run whose netlist lies in a folder of its author, with included files, and messages that name them."""
+    files = dict.fromkeys((f"{HOME}/scenes/bend.yaml", f"{HOME}/scenes/parts/pad.yaml", f"{HOME}/common.yaml"), "a: 1")
+    header = {"name": "bend", "netlist": f"{HOME}/scenes/bend.yaml", "scene": {**SCENE, "files": files},
+              "settings": {"accuracy": 1e-3, "profile": None}, "library": f"{HOME}/scenes/own.py",
+              "remarks": [f"{HOME}/scenes/bend.yaml:5:20: pad.curve is odd. See {HOME}/common.yaml:3."]}  # fmt: skip
+    run = RunDirectory.create(folder, SIGNALS, header)
+    t = np.linspace(0, 1, 5)
+    run.append(t, np.outer(t, np.arange(len(SIGNALS))), np.zeros(5))
+    run.finish(status, {"steps": 9, "sentence": f"Own (in {HOME}/scenes/own.py:12) gave nan."})
+    return Result.open(folder)
+
+
+@pytest.mark.parametrize("status", ["finished", "failed"])
+def test_a_page_that_goes_to_others_has_no_folder_of_the_author(tmp_path: Path, status: str) -> None:
+    text = text_of(of_somebody(tmp_path / "run", status))
+    assert HOME not in text
+    for word in ("bend.yaml:5:20: pad.curve is odd", "parts/pad.yaml", "See common.yaml:3", ">bend.yaml<"):
+        assert word in text
+    assert ("own.py:12" in text) == (status == "failed")
+
+
+def test_runs_of_one_name_are_told_apart_by_what_their_folders_do_not_share(tmp_path: Path) -> None:
+    runs = [of_somebody(tmp_path / "deep" / name) for name in ("one", "two")]
+    text = page.write(runs).read_text(encoding="utf-8").replace(library(), "")
+    assert "bend in one" in text
+    assert "bend in two" in text
+    assert str(tmp_path) not in text

@@ -1,12 +1,16 @@
 """Whether a motion at constant speed has settled, what a tick compares, and every place that rucks: of written runs."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from fairlead.analysis.margins.quasi_static import against_statics
 from fairlead.analysis.margins.ruck import verdicts
 from fairlead.analysis.margins.ruck_words import figure, moment
+from fairlead.analysis.margins.settled import drift, much
 from fairlead.analysis.statics.route_record import route_records
+from fairlead.analysis.statics.schedule import Stretch
 from fairlead.cli.summary import summary_rows
 from fairlead.report.page.verdict import verdict
 from fairlead.results import Result, RunDirectory, Signal
@@ -127,3 +131,33 @@ def test_the_box_of_trust_stays_folded_where_the_verdict_says_what_is_wrong(scen
         ("fair", False), ("fair", False),
     ]  # fmt: skip
     assert told(written(scene(ARRAY), tmp_path / "sound", drifts=40.0))["Hose against statics"].opens
+
+
+def a_line(tension, places, ruck_force=None):
+    """What `drift` reads of a line on a drum that ends at 0 m."""
+    t = np.linspace(0.0, 4.0, len(tension))
+    record = {"line": "rope", "layers": ["line"], "nodes": tension.shape[1] + 1, "ruck_force": ruck_force,
+              "stations": [{"type": "Winch", "begin": None, "end": 0.0}]}  # fmt: skip
+    return SimpleNamespace(record=record, layers=[tension], places=places, result=SimpleNamespace(t=t, events=()))
+
+
+def test_line_that_leaves_a_drum_with_what_it_was_wound_on_with_leaves_the_rest_settled():
+    """Twenty elements of 1 m at 1000 N on a drum and 400 N off it; half of those that are stored come off by 4 s."""
+    way = np.linspace(0.0, 10.0, 401)
+    places = np.arange(20)[None, :] - 10.4 + way[:, None]
+    wound = np.where(places < 0, 1000.0 - 60.0 * way[:, None], 400.0)
+    stored = drift(a_line(wound, places), Stretch(0.0, 4.0, 2.5))
+    assert stored["settled"]
+    assert stored["highest"] == stored["lowest"] == [400.0, 400.0]
+    assert not drift(a_line(wound, None), Stretch(0.0, 4.0, 2.5))["settled"]
+
+
+@pytest.mark.parametrize(
+    ("beside", "share", "told"),
+    [(400.0, 2 / 400, "2 N, 0.5 % of 400 N"), (10.0, 2 / 10, "2 N, 20 % of 10 N"), (400.0, 0.3, "30 %")],
+)
+def test_a_change_of_tension_is_told_in_newtons_and_as_a_share_of_what_it_is_beside(beside, share, told):
+    """The highest tension falls from 15 to 13 N; in the last case the share of elements that ruck changes more."""
+    found = {"lowest": [5.0, 5.0], "highest": [15.0, 13.0], "beside": beside, "change": share}
+    assert much(found) == told
+    assert much({"lowest": [5.0, 5.0], "highest": [15.0, 13.0], "change": share}) == f"{100 * share:.2g} %"  # of old

@@ -216,6 +216,47 @@ def test_a_tensioner_between_two_drives_sets_the_tension_there(scene):
     assert passage(state, "deployer").inboard == pytest.approx(150)
 
 
+def at_rest_with_a_tensioner(loop, clamp):
+    """A hand, a bend, a tensioner and belts that hold; 100 N pull outboard."""
+    bend = "{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}"
+    belts = f"{{type: Deployer, start: 10 m, length: 2 m, friction: 0.5, clamp: {clamp}}}"
+    text = scene_of(bend, f"{{type: Tensioner, start: 8 m, {loop}}}", belts, rope="")
+    text = text.replace("  load:", "  belt: {type: MotionSource, velocity: -0.2 m/s}\n  load:")
+    return text.replace("connections:\n", "connections:\n  - [belt.flange, route.deployer.belt]\n")
+
+
+@pytest.mark.parametrize(
+    ("loop", "clamp", "least", "most", "where"),
+    [
+        ("force: 300 N", "500 N/m", 150, 150, "between its stops, at 150 N"),
+        ("force: 300 N, stiffness: 100 N/m, stroke: 2 m", "500 N/m", 50, 150, "between its stops, at 50 ... 150 N"),
+        ("force: 300 N, stiffness: 400 N/m", "500 N/m", 0, 150, "between its stops, at 0 ... 150 N"),
+        ("force: 300 N, stiffness: 100 N/m, stroke: 2 m", "10 N/m", 80, 120, "between its stops"),
+        ("force: 100 N", "10 N/m", 80, 120, "at its inner stop"),
+        ("force: 500 N, stiffness: 100 N/m", "10 N/m", 80, 120, "at its outer stop"),
+    ],
+)
+def test_a_line_that_stands_has_the_tensions_that_the_carriage_of_a_tensioner_can_be_at(
+    scene, loop, clamp, least, most, where
+):
+    """T = (force - stiffness y)/2 between the stops; belts of 2 m hold 2 mu q length more or less than 100 N."""
+    found = one(scene(at_rest_with_a_tensioner(loop, clamp)))
+    (note,) = found.notes
+    assert where in note
+    bend = passage(found.standing, "bend")
+    assert bend.outboard == pytest.approx((max(least, 0), most))
+    assert bend.inboard == pytest.approx((least * math.exp(-0.3), most * math.exp(0.3)))
+    assert passage(found.standing, "deployer").inboard == pytest.approx((least, most))
+
+
+def test_a_tensioner_before_a_known_end_leaves_what_friction_can_hold(scene):
+    """Nothing holds outboard of it: 100 N pull there, and its carriage is at a stop if it has to be."""
+    bend = "{type: Bend, start: 3 m, angle: 1 rad, radius: 2 m, friction: 0.3}"
+    found = one(scene(scene_of(bend, "{type: Tensioner, start: 8 m, force: 300 N}", rope="")))
+    assert passage(found.standing, "bend").outboard == pytest.approx((100, 100))
+    assert not found.notes
+
+
 def test_a_start_in_which_a_rope_would_have_to_push_is_told(scene):
     """Pushed in at its outboard end, it would have to speed up itself and a drum of 40 kg that pulls with 10 N."""
     drum = "{type: Winch, radius: 0.5 m, moment: 10 kg*m^2}"

@@ -71,7 +71,7 @@ def paid_out(angle):
 
 def test_a_drum_that_turns_steadily_pays_out_ever_slower(scene):
     model = scene(LAYERED)
-    state = next(one for one in table(model).moving if one.speed > 0)
+    state = max((one for one in table(model).moving if one.speed > 0), key=lambda one: one.way)
     way, radius = paid_out(1.3 * 99.5)
     assert state.way == pytest.approx(way, rel=1e-3)
     assert state.speed == pytest.approx(1.3 * radius, rel=1e-9)
@@ -83,10 +83,51 @@ def test_a_drum_that_turns_steadily_pays_out_ever_slower(scene):
     assert winch.lever == pytest.approx(radius, rel=1e-9)
 
 
+def emptied():
+    """Of each layer that is paid out at 1.3 rad/s: its number, its radius, and the way when its last wrap comes off."""
+    rise, radii, left = 0.02 * math.sqrt(3) / 2, [], 32.0
+    while left > 0:
+        radii.append(0.11 + len(radii) * rise)
+        left -= 6 * math.pi * radii[-1]
+    way, angle = 0.0, 1.3 * 99.5
+    for k in reversed(range(len(radii))):
+        length = 6 * math.pi * radii[k] + (left if k == len(radii) - 1 else 0.0)
+        length, angle = min(length, angle * radii[k]), angle - length / radii[k]
+        way += length
+        yield k + 1, radii[k], way
+        if angle <= 0:
+            return
+
+
+def test_of_layers_the_fastest_is_told_and_those_in_which_force_or_torque_is_larger(scene):
+    """What a current pulls grows with the line in it, and the radius falls: both are largest in other layers."""
+
+    def pulls(radius, way):
+        return 100 + 0.5 * 1025 * 0.05 * math.pi * 0.02 * (way - 32 + 36 - 3) * (5 - 1.3 * radius) ** 2
+
+    layers = list(emptied())
+    force = max(layers, key=lambda one: pulls(*one[1:]))[0]
+    torque = max(layers, key=lambda one: pulls(*one[1:]) * one[1])[0]
+    found = [one for one in table(scene(LAYERED)).record["states"] if one["speed"] > 0]
+    assert {one["layer"] for one in found} == {layers[0][0], force, torque}
+    assert found[0]["layer"] == layers[0][0]
+    assert found[0]["speed"] == pytest.approx(1.3 * layers[0][1], rel=1e-9)
+    assert found[0]["state"] == f"paying out, layer {layers[0][0]}"
+
+
+def test_of_layers_in_which_nothing_but_the_speed_changes_the_fastest_alone_is_told(scene):
+    found = table(scene(LAYERED.replace("drag_coefficient: 0.05", "drag_coefficient: 0")))
+    (state,) = [one for one in found.moving if one.speed > 0]
+    (number, radius, _), *_ = emptied()
+    assert (state.route.layer(state.way), state.speed) == (number, pytest.approx(1.3 * radius, rel=1e-9))
+    rows = found.drives().to_pandas()
+    assert {f"layer {number}" in row for row in rows["state"] if row.startswith("paying out")} == {True}
+
+
 @pytest.mark.slow
 def test_the_run_pays_out_as_statics_says(scene):
     model = scene(LAYERED)
-    state = next(one for one in table(model).moving if one.speed > 0)
+    state = max((one for one in table(model).moving if one.speed > 0), key=lambda one: one.way)
     result = model.run(out=None)
     assert result["rope.node[0].x"][-1] + 32 == pytest.approx(state.way, rel=1e-3)
     assert result["route.winch.layers.radius_now"][-1] == pytest.approx(state.speed / 1.3, rel=1e-6)
@@ -144,8 +185,7 @@ def test_of_a_load_that_changes_the_hardest_pull_is_told_and_when(scene):
     assert any("changes while it moves; it is hardest at 4" in remark for remark in found.notes)
 
 
-def test_a_line_at_whose_end_another_one_pulls_says_so_and_is_not_compared(scene):
-    text = f"""
+JOINED = f"""
 components:
   one: {ROPE % (6, 0)}
   two: {ROPE % (6, 6)}
@@ -160,14 +200,50 @@ connections:
   - [one.outboard, two.inboard]
   - [load.flange, two.outboard]
 run: {{stop: 4 s}}
+record: {{signals: ["*.tension", "*.x"], every: 10 ms}}
 """
-    model = scene(text)
-    told = [remark for found in model.statics() for remark in found.remarks]
-    assert "outboard end: two acts there, and is not counted" in told
-    assert "inboard end: one acts there, and is not counted" in told
-    against = against_statics(model.flat, model.run(out=None))
-    assert against["difference"] is None
-    assert "not counted" in against["reason"]
+GRIP = math.exp(0.3 * math.pi / 2)
+
+
+@pytest.mark.parametrize("hauled_at", ["one.inboard", "two.outboard"])
+def test_lines_that_are_joined_pull_at_each_other_by_the_capstans_of_both(scene, hauled_at):
+    """300 N pull at one end and a hand at the other: behind both bends they are 300 N times the capstan of each."""
+    text = JOINED
+    if hauled_at == "two.outboard":  # the other way round, outboard
+        text = text.replace("haul.flange, one.inboard", "load.flange, one.inboard").replace("force: 300", "force: -300")
+        text = text.replace("[load.flange, two.outboard]", "[haul.flange, two.outboard]").replace("to: -0.2", "to: 0.2")
+    one, two = scene(text).statics()
+    assert not one.remarks
+    assert not two.remarks
+    first, second = ([state] for state in (one.moving[0], two.moving[0]))
+    assert (len(one.moving), len(two.moving)) == (1, 1)
+    ends = [(each.passages[0].inboard, each.passages[-1].outboard) for (each,) in (first, second)]
+    wanted = [(300 * GRIP**2, 300 * GRIP), (300 * GRIP, 300)]
+    assert ends == [pytest.approx(pair) for pair in (wanted if hauled_at == "one.inboard" else
+                                                     [pair[::-1] for pair in wanted[::-1]])]  # fmt: skip
+    cone = (one if hauled_at == "one.inboard" else two).standing
+    ranges = [cone.passages[0].inboard, cone.passages[-1].outboard]
+    assert pytest.approx((300 / GRIP**2, 300 * GRIP**2)) in ranges
+    assert pytest.approx((300 / GRIP, 300 * GRIP)) in ranges
+    assert any("two is joined to it" in note for note in one.notes)
+    assert any("one is joined to it" in note for note in two.notes)
+
+
+def test_a_run_of_joined_lines_is_as_their_statics_says(scene):
+    model = scene(JOINED.replace("stop: 4 s", "stop: 9 s"))
+    result = model.run(out=None)
+    late = result.t > 2.5
+    assert result["one.line[0].tension"][late].mean() == pytest.approx(300 * GRIP**2, rel=0.03)
+    assert result["two.line[0].tension"][late].mean() == pytest.approx(300 * GRIP, rel=0.03)
+    against = against_statics(model.flat, result)
+    assert against["difference"] < 0.03, against["reason"]
+
+
+def test_between_lines_that_both_hold_the_joint_is_open_and_named(scene):
+    text = JOINED.replace("{type: ForceSource, force: 300 N}", "{type: MotionSource, velocity: -0.2 m/s}")
+    for found in scene(text).statics():
+        assert any("two drives hold the line" in remark for state in found.moving for remark in state.remarks)
+        assert any("is joined to it" in note for note in found.notes)
 
 
 @pytest.mark.parametrize("amplitude", [1.0, -1.0])

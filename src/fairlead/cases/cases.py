@@ -22,7 +22,8 @@ from fairlead.cases.figures import Figure, Function, default_figures, read_figur
 from fairlead.cases.identity import key_of, scene_digest
 from fairlead.cases.row import BUDGET, COUNTED, ERROR, FAILED, FINISHED, REFUSED, Row, Value
 from fairlead.cases.values_of import value_of
-from fairlead.errors import FairleadError, Location, ModelError
+from fairlead.component.numbers import told_numbers
+from fairlead.errors import FairleadError, Location, ModelError, UsageError
 from fairlead.netlist.settings import RecordSettings
 from fairlead.running import patterns_of, run
 
@@ -36,6 +37,7 @@ Take = Callable[["Result"], None]
 PLACE = Location("values")
 """What is wrong with values of a case is told as of this, by whatever call they came."""
 EXAMPLE = '{"peak": "peak(block.x)"}'
+OF_THE_RUN = {f"run.{name}": ("s", "") for name in ("start", "stop", "first_step", "max_step")}
 MOST_STRUCTURES = 4
 """Compiled structures that are kept; a sweep over words has a few, and one over sizes comes back to none."""
 
@@ -67,6 +69,11 @@ class Cases:
     def name(self) -> str:
         """The name of the model."""
         return self.model.netlist.name
+
+    @property
+    def about(self) -> dict[str, tuple[str, str]]:
+        """Unit and description of every number of the model that may be varied, by name."""
+        return {**OF_THE_RUN, **told_numbers(self.model.netlist, self.model.assembly.entries)}
 
     @property
     def units(self) -> dict[str, str]:
@@ -141,26 +148,31 @@ class Cases:
 
     def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)
-        first, *more = self._records(model, also)
-        result = self._result(model, first)
-        run = result.run
-        counters = {name: int(run[name]) for name in COUNTED}
-        status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
-        if result.status == "interrupted":
-            raise KeyboardInterrupt
-        row = replace(start, status=status, sentence=str(run["sentence"]), counters=counters,
-                      broken=tuple(run["limits_broken"]), loop=float(run["solve_time"]))  # fmt: skip
-        if not result.ok:
-            return row
-        if take is not None:
-            take(result)
-        found = {one.name: value_of(one, result) for one in first.figures}
-        for record in more:
-            result = self._result(model, record)
+        row, found = start, dict[str, float]()
+        for record in self._records(model, also):
+            try:
+                result = self._result(model, record)
+            except UsageError as error:  # the engine that was asked for does not run such a model, or is not installed
+                return replace(start, status=REFUSED, sentence=_in_a_line(error))
             if result.status == "interrupted":
                 raise KeyboardInterrupt
+            row = self._ended(start, result, row.loop)
+            if not result.ok:
+                return row
+            if take is not None:
+                take(result)
+                take = None
             found |= {one.name: value_of(one, result) for one in record.figures}
         return replace(row, figures={one.name: found[one.name] for one in self.figures})
+
+    @staticmethod
+    def _ended(start: Row, result: Result, before: float) -> Row:
+        """How a run ended; `before` it the engine was busy so long [s]."""
+        run = result.run
+        status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
+        return replace(start, status=status, sentence=str(run["sentence"]), broken=tuple(run["limits_broken"]),
+                       counters={name: int(run[name]) for name in COUNTED},
+                       loop=before + float(run["solve_time"]))  # fmt: skip
 
     def _model(self, values: Mapping[str, Value]) -> Model:
         """The model of these values, on a structure that is compiled already where there is one that fits."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 FINISHED, FAILED, BUDGET, REFUSED, ERROR, KILLED = "finished", "failed", "budget", "refused", "error", "killed"
 """How a case ends: the run reached its stop; the engine could not go on; a budget was used up; the model has no such
-values; a function of the user raised, or fairlead itself did; the process that computed it is gone."""
+values, or the engine asked for does not run it; a function of the user raised, or fairlead itself did; the process
+that computed it is gone."""
 COUNTED = ("steps", "rejected", "switches")
 Value = float | str
 

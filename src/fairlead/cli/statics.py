@@ -65,7 +65,13 @@ def print_statics(name: str, found: list[dict[str, Any]]) -> None:
 
 def _title(name: str, state: dict[str, Any]) -> str:
     sea = f", {state['in_sea']:.4g} m in the sea" if state["in_sea"] else ""
-    return f"{name}: {state['state']} at {abs(state['speed']):.3g} m/s, {_way(state['paid_out'])}{sea}"
+    return f"{name}: {_at_speed(state)}, {_way(state['paid_out'])}{sea}"
+
+
+def _at_speed(state: dict[str, Any]) -> str:
+    """Which way the line moves, how fast, and on which layer of its drum."""
+    way, comma, layer = state["state"].partition(",")
+    return f"{way} at {abs(state['speed']):.3g} m/s{comma}{layer}"
 
 
 def _way(paid_out: float) -> str:

@@ -4,7 +4,8 @@ A parameter is worked out into many numbers in Python (derived parameters, masse
 FMU runs. So the model is laid out at a row of values of the parameter, from an eighth of its own to eight times it, as
 far as it is taken. A number of memory that is not the same at all of them follows the law
 
-    number = offset + slope p^power        power 1, -1, 2, -2, 1/2 or -1/2
+    number = offset + slope p^power        power 1, 2, 3, 4, 1/2 or 3/2, or the negative of one of these
+    number = (offset + slope p)^2
     number = 1/(offset + slope p)
 
 if one of these gives all values of the row, but for rounding. What follows no such law cannot be worked out where the
@@ -45,9 +46,15 @@ POWERS: Mapping[str, Callable[[Floats], Floats]] = {
     "LAW_INVERSE_SQUARE": lambda p: 1 / (p * p),
     "LAW_ROOT": np.sqrt,
     "LAW_INVERSE_ROOT": lambda p: 1 / np.sqrt(p),
+    "LAW_THREE_HALVES": lambda p: p * np.sqrt(p),
+    "LAW_INVERSE_THREE_HALVES": lambda p: 1 / (p * np.sqrt(p)),
+    "LAW_CUBE": lambda p: p * p * p,
+    "LAW_INVERSE_CUBE": lambda p: 1 / (p * p * p),
+    "LAW_FOURTH": lambda p: p * p * (p * p),
+    "LAW_INVERSE_FOURTH": lambda p: 1 / (p * p * (p * p)),
 }
 """By the name that c/tuned.c has for it."""
-RECIPROCAL = "LAW_RECIPROCAL"
+RECIPROCAL, SQUARED_LINE = "LAW_RECIPROCAL", "LAW_SQUARED_LINE"
 ROUNDING = 64 * np.finfo(float).eps
 """Of the largest term: a few operations in a row."""
 UNITS = "memory column_scale"
@@ -217,6 +224,8 @@ def _law(at: int, p: Floats, values: Floats) -> Law | None:
         for name, g in powers.items():
             if (line := _line(g, values)) is not None:
                 return Law(at, name, *line)
+        if (values >= 0.0).all() and (squared := _squared_line(p, values)) is not None:
+            return Law(at, SQUARED_LINE, *squared)
         if (values != 0.0).all() and (line := _line(p, 1 / values)) is not None:
             return Law(at, RECIPROCAL, *line)
     return None
@@ -228,6 +237,19 @@ def _line(g: Floats, values: Floats) -> tuple[float, float] | None:
     offset = float(values[0] - slope * g[0])
     size = np.maximum(np.abs(values), np.abs(slope * g)) + abs(offset)
     return (offset, slope) if _fits(offset + slope * g, values, size) else None
+
+
+def _squared_line(p: Floats, values: Floats) -> tuple[float, float] | None:
+    """Offset and slope of a line whose square goes through all values; it may be zero between two of them."""
+    roots = np.sqrt(values)
+    for below in range(len(p)):
+        signed = np.where(np.arange(len(p)) < below, -roots, roots)
+        slope = float((signed[-1] - signed[0]) / (p[-1] - p[0]))
+        offset = float(signed[0] - slope * p[0])
+        size = (np.abs(slope * p) + abs(offset)) ** 2
+        if slope and _fits((offset + slope * p) ** 2, values, size):
+            return offset, slope
+    return None
 
 
 def _fits(found: Floats, values: Floats, size: Floats) -> bool:

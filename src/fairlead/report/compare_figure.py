@@ -17,6 +17,7 @@ PANELS = (
     ("seconds", "stepping [s]"),
 )  # fmt: skip
 MOST_TICKS = 5  # with more, the labels of a narrow panel lie over one another
+ROOM = 0.3  # of the way to the longest bar, behind it, for its number
 LEAST = 1e-12  # below it is rounding, and a logarithm has no place for zero
 
 
@@ -48,7 +49,10 @@ def figure_of(comparison: Comparison) -> Any:
             axes[0].annotate(
                 row.status, (0.02, place), xycoords=("axes fraction", "data"), va="center", color=COLOURS[1]
             )
-    figure.suptitle(f"Against {comparison.reference}", x=0.01, horizontalalignment="left", parse_math=False)
+    told = f"Error against {comparison.reference}, as a share of the range of a signal"
+    if comparison.reference.startswith("none"):
+        told = f"Reference: {comparison.reference}"
+    figure.suptitle(told, x=0.01, horizontalalignment="left", parse_math=False)
     return figure
 
 
@@ -65,7 +69,11 @@ def _bars(ax: Any, values: list[float | None], colour: str) -> None:
             ax.barh(place, value - least, left=least, height=0.6, color=colour)
         else:
             ax.plot([least], [place], marker="o", markersize=3, color=colour, clip_on=False)
+        told = f"{value:.2g}" if isinstance(value, float) else str(value)
+        ax.annotate(told if value > LEAST or value == 0 else "rounding", (max(value, least), place), fontsize=7,
+                    xytext=(4, 0), textcoords="offset points", va="center")  # fmt: skip
     ax.set_xscale("log")
-    ax.set_xlim(left=least)
+    most = max(known, default=10 * least)
+    ax.set_xlim(least, most * (most / least) ** ROOM)
     ax.xaxis.set_major_locator(LogLocator(numticks=MOST_TICKS))
     ax.xaxis.set_minor_formatter(NullFormatter())

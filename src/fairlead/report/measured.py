@@ -11,13 +11,13 @@ SMALL, LARGE, VAST = 1e-3, 1e5, 1e12
 """From a number below and from one above a prefix is taken; of what is larger than the last no prefix helps."""
 
 
-def measured(value: float, unit: str) -> str:
-    """Three digits and the unit, with a prefix where it takes one and the number would be long: 18 MPa, 0.177 m."""
+def measured(value: float, unit: str, digits: int = 3) -> str:
+    """So many digits and the unit, with a prefix where it takes one and the number would be long: 18 MPa, 0.177 m."""
     behind = f"\u00a0{unit}" if unit not in ("", "1") else ""
     scale, prefix = prefix_of(abs(value), unit)
     if scale != 1.0 or value == 0.0 or SMALL <= abs(value) < LARGE:
-        return f"{_three(value / scale)}{behind and f'{behind[0]}{prefix}{unit}'}"
-    return f"{value:.2e}{behind}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
+        return f"{_short(value / scale, digits)}{behind and f'{behind[0]}{prefix}{unit}'}"
+    return f"{value:.{digits - 1}e}{behind}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
 
 
 def prefix_of(size: float, unit: str) -> tuple[float, str]:
@@ -27,6 +27,6 @@ def prefix_of(size: float, unit: str) -> tuple[float, str]:
     return next(one for one in PREFIXES if size >= one[0])
 
 
-def _three(value: float) -> str:
-    """Three digits, all before the point, no exponent."""
-    return f"{float(f'{value:.3g}'):.12g}"
+def _short(value: float, digits: int) -> str:
+    """So many digits, all before the point, no exponent."""
+    return f"{float(f'{value:.{digits}g}'):.12g}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
@@ -14,6 +15,8 @@ from fairlead.results.damage import DamagedResultsError, reading
 from fairlead.results.placing import create
 
 EVENT_FILE = "events.csv"
+PIECE = re.compile(r"\w+ \d+")
+"""Zones that are the pieces of a table (`curvature 3`, `force 1`): innards, not what a reader looks for."""
 HEADER = ("t [s]", "component", "from", "to", "guard")
 
 

@@ -32,6 +32,7 @@ from fairlead.results.events import EVENT_FILE, Event, read_events
 from fairlead.results.kept import earlier
 from fairlead.results.kept_lists import Events, RunRecord, Signals
 from fairlead.results.named import Names
+from fairlead.results.plateau import first_row
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
 from fairlead.results.signal import Signal
@@ -149,6 +150,7 @@ class Result:
         """Lowest and highest value of the signal `name`, and when: (lowest, t_lowest, highest, t_highest), in SI and s.
 
         They come from the dense output of every step, whatever was recorded; of a run that was killed, from its rows.
+        A time is the first at which the signal is at the extreme but for 1e-9 of its range: rounding decides nothing.
         """
         self._names.one(name)
         if name in self._extremes:
@@ -156,8 +158,8 @@ class Result:
         values = self[name]
         if not np.isfinite(values).any():
             return Extremes(np.nan, np.nan, np.nan, np.nan)
-        low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-        return Extremes(float(values[low]), float(self.t[low]), float(values[high]), float(self.t[high]))
+        t_low, t_high = (float(self.t[first_row(values, least=least)]) for least in (True, False))
+        return Extremes(float(np.nanmin(values)), t_low, float(np.nanmax(values)), t_high)
 
     @cached_property
     def events(self) -> Events:

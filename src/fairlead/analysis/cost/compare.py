@@ -37,7 +37,7 @@ GRID = 4001  # common times at which signals are compared
 Load = Callable[[Mapping[str, str]], Any]  # settings -> Model
 LEAST = 1e-3  # of the widest range of a unit: what hardly moves is measured by that
 STILL = 1e-12  # m or rad, or of its place: a range of rounding
-EVERY = "record.every"
+EVERY, ACCURACY = "record.every", "run.accuracy"
 VARIED = Location("--vary")
 
 
@@ -74,8 +74,9 @@ def compare(
 
     A run ends after `max_wall` (`"2 min"`, or seconds) at the latest.
 
-    The reference is exact hold at a hundredth of the accuracy where the treatment is varied, else the first
-    combination. Raises ModelError for every mistake in what is varied, before anything runs.
+    The reference is exact hold where the treatment is varied, and of anything else the first value, at a hundredth of
+    the finest accuracy of all combinations. Raises ModelError for every mistake in what is varied, before it runs
+    anything.
     """
     asked = Arguments("compare")
     asked.path("out", out)
@@ -85,10 +86,12 @@ def compare(
     vary = {name: [Setting(value, VARIED) for value in values] for name, values in vary.items()}
     chosen = [dict(zip(vary, values, strict=True)) for values in itertools.product(*vary.values())]
     _refuse_mistakes(load, fixed, chosen)
-    _refuse_unknown(load({**fixed, **chosen[0]}), signals)
-    kinds = kinds_of_treatment(load({**fixed, **chosen[0]}))
-    exact = {name: kinds.exact if name.split(".")[-1] == kinds.key else values[0] for name, values in vary.items()}
-    accuracy = load({**fixed, **exact}).netlist.run.accuracy
+    first = {**fixed, **chosen[0]}
+    _refuse_unknown(load(first), signals)
+    kinds = kinds_of_treatment(load(first))
+    exact = {name: kinds.exact if name.split(".")[-1] == kinds.key else _finest(load, first, name, values)
+             for name, values in vary.items()}  # fmt: skip
+    accuracy = min(load({**fixed, **values}).netlist.run.accuracy for values in (exact, *chosen))
     reference, failed = _run(load, {**fixed, **exact}, folder / "reference", wall, accuracy * FINER)
     if reference is not None and reference.status != "finished":
         reference = None
@@ -96,10 +99,16 @@ def compare(
     for number, values in enumerate(chosen):
         result, row = _run(load, {**fixed, **values}, folder / f"run{number}", wall, None)
         rows.append(_row(", ".join(values.values()), result, row, reference, signals))
-    label = f"{', '.join(exact.values())} at accuracy {max(accuracy * FINER, 1e-12):g}"
+    told = ", ".join(value for name, value in exact.items() if name != ACCURACY) or "the scene"
+    label = f"{told} at accuracy {max(accuracy * FINER, 1e-12):g}"
     return Comparison(
         tuple(rows), label if reference is not None else f"none: {failed or 'the reference failed'}", folder
     )
+
+
+def _finest(load: Load, settings: Mapping[str, str], name: str, values: Sequence[str]) -> str:
+    """The value with which the scene has the finest accuracy; the first where that does not depend on it."""
+    return min(values, key=lambda value: load({**settings, name: value}).netlist.run.accuracy)
 
 
 def _refuse_mistakes(load: Load, fixed: Mapping[str, str], chosen: Sequence[Mapping[str, str]]) -> None:

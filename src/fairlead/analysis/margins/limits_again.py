@@ -10,6 +10,7 @@ import numpy as np
 from fairlead.analysis.record.recorded_line import numbers
 from fairlead.patterns import matcher
 from fairlead.results import Result
+from fairlead.results.plateau import first_row
 from fairlead.results.run_file import RUN_FILE
 from fairlead.results.run_schema import limits
 
@@ -43,7 +44,8 @@ def _judge(result: Result, limit: dict[str, Any]) -> Judged | None:
         return None
     values = numbers(result, names)
     beyond = limit["sense"] * (values - limit["bound"])
-    row, k = np.unravel_index(int(beyond.argmax()), beyond.shape)
+    _, k = np.unravel_index(int(beyond.argmax()), beyond.shape)
+    row = first_row(beyond[:, k], least=False)
     value = float(values[row, k])
     broken = bool(beyond[row, k] > 0)
     return Judged(names[k], limit["text"], limit["unit"], limit["bound"], value, float(result.t[row]), broken)

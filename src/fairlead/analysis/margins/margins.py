@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from fairlead.analysis.record.recorded_line import Floats, RecordedLine
 from fairlead.results import Result
+from fairlead.results.plateau import first_row
 from fairlead.results.run_file import RUN_FILE
 from fairlead.results.run_schema import routes
 
@@ -186,7 +187,9 @@ class _Judge(RecordedLine):
     def _worst_row(self, values: Floats, inside: NDArray[np.bool_], name: Any, least: bool) -> Worst:
         """The extreme among rows of what is inside, and where it was."""
         masked = np.where(inside, values, math.inf if least else -math.inf)
-        row, k = np.unravel_index(int(masked.argmin() if least else masked.argmax()), masked.shape)
+        row, k = divmod(int(masked.argmin() if least else masked.argmax()), masked.shape[1])
+        if inside[row, k]:
+            row = first_row(np.where(inside[:, k], values[:, k], np.nan), least=least)
         place = None
         if self.places is not None:
             where = self.places if values.shape[1] == self.places.shape[1] else self.nodes
@@ -215,7 +218,7 @@ class _Judge(RecordedLine):
             return None
         mean = np.abs((found * held).sum(axis=1)) / np.maximum(held.sum(axis=1), 1)
         gone = self._over_time(mean)
-        row = int(mean.argmax())
+        row = first_row(mean, least=False)
         return Worst(float(gone.sum()), float(self.result.t[row]), f"{self.record['line']}.{child}", None)
 
     def _over_time(self, rate: Floats) -> Floats:

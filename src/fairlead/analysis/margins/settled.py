@@ -7,6 +7,7 @@ then its greatest compression depends on when it ends. Compared are, for the out
     rucking            share of its elements that ruck, as a mean over the time of each half
 
 Means of the extremes of every instant are taken, not the extremes of a half: a single peak of stick-slip would decide.
+Line on a drum is left out: it keeps the tension that it was wound on with, and leaves with it.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ def drift(line: RecordedLine, stretch: Stretch) -> dict[str, Any] | None:
     change = max(moved / scale if scale > 0 else 0.0, abs(rucking[1] - rucking[0]))
     return {
         "line": record["line"], "layer": record["layers"][0], "from": stretch.begin, "to": stretch.end,
-        "lowest": list(lowest), "highest": list(highest), "rucking": rucking, "change": change,
+        "lowest": list(lowest), "highest": list(highest), "rucking": rucking, "change": change, "beside": scale,
         "settled": change <= SMALL,
     }  # fmt: skip
 
@@ -55,7 +56,12 @@ def drift(line: RecordedLine, stretch: Stretch) -> dict[str, Any] | None:
 def _extremes(line: RecordedLine, tension: Floats, begin: float, end: float) -> tuple[float, float]:
     """Lowest and highest of all elements, as means over instants."""
     rows = np.searchsorted(line.result.t, np.linspace(begin, end, LOOKS)).clip(max=len(line.result.t) - 1)
-    return float(tension[rows].min(axis=1).mean()), float(tension[rows].max(axis=1).mean())
+    seen = tension[rows]
+    drum = max((one["end"] for one in line.record["stations"] if one["type"] == "Winch"), default=-np.inf)
+    if line.places is not None:
+        off = line.places[rows] >= drum
+        seen = np.where(off | ~off.any(axis=1, keepdims=True), seen, np.nan)
+    return float(np.nanmin(seen, axis=1).mean()), float(np.nanmax(seen, axis=1).mean())
 
 
 def _rucking(result: Result, layer: str, count: int, begin: float, end: float) -> float:
@@ -76,6 +82,16 @@ def _spells(result: Result, layer: str) -> Iterator[tuple[float, float]]:
         elif one.component in since:
             yield since.pop(one.component), one.t
     yield from ((begin, float(result.t[-1])) for begin in since.values())
+
+
+def much(found: dict[str, Any]) -> str:
+    """How much changes, with what that is a share of; of runs of old the share alone."""
+    share = f"{100 * found['change']:.2g} %"
+    moved = max(abs(found[key][1] - found[key][0]) for key in ("lowest", "highest"))
+    beside = found.get("beside")
+    if not beside or moved / beside < found["change"]:  # the share of elements that ruck changes more
+        return share
+    return f"{figure(moved)} N, {share} of {figure(beside)} N"
 
 
 def sentence(found: dict[str, Any]) -> str:

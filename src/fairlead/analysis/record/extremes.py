@@ -4,6 +4,8 @@ Looked at are all rows an engine hands over: the ends of steps, both sides of ev
 best of them lies in a step, or at an end of one, that has rows inside, the curve through these rows is searched: of the
 rows of an event, the step that ends there and the one that starts. Where steps are too short for that, a parabola
 through three ends is. So an extreme between two rows is found, whatever is recorded.
+
+Its time is the first at which the signal is there but for rounding (`results/plateau.py`).
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 from fairlead.analysis.record.event_rows import AFTER, BEFORE, Rows
 from fairlead.analysis.record.step_rows import Integers, curved_steps
 from fairlead.results.curves import basis
+from fairlead.results.plateau import tolerance
 
 POINTS = np.linspace(0.0, 1.0, 33)
 TURNS = 2
@@ -46,11 +49,14 @@ class Extremes:
     t_lowest: Floats = field(init=False)
     highest: Floats = field(init=False)
     t_highest: Floats = field(init=False)
+    _timed: Floats = field(init=False)
+    """Highest values, and those of the negatives, of which the times are told."""
 
     def __post_init__(self) -> None:
         """Nothing seen yet."""
         self.lowest, self.highest = np.full(self.signals, np.inf), np.full(self.signals, -np.inf)
         self.t_lowest, self.t_highest = np.full(self.signals, np.nan), np.full(self.signals, np.nan)
+        self._timed = np.full(2 * self.signals, -np.inf)
 
     def watch(self, rows: Rows) -> None:
         """Take rows of whole steps."""
@@ -60,11 +66,12 @@ class Extremes:
         before = np.concatenate([self.highest, -self.lowest])
         length = SHORT if self.signals <= FEW else STRETCH
         best, when = _highest(rows, rows.values[:, : self.signals], steps, before, length)
-        top, bottom = best[: self.signals], best[self.signals :]
-        t_top, t_bottom = when[: self.signals], when[self.signals :]
-        higher, lower = top > self.highest, -bottom < self.lowest
-        self.highest[higher], self.t_highest[higher] = top[higher], t_top[higher]
-        self.lowest[lower], self.t_lowest[lower] = -bottom[lower], t_bottom[lower]
+        self.highest = np.maximum(self.highest, best[: self.signals])
+        self.lowest = np.minimum(self.lowest, -best[self.signals :])
+        later = best > self._timed + np.tile(tolerance(self.highest, self.lowest), 2)
+        self._timed[later] = best[later]
+        top, bottom = later[: self.signals], later[self.signals :]
+        self.t_highest[top], self.t_lowest[bottom] = when[: self.signals][top], when[self.signals :][bottom]
 
     def plain(self, names: Sequence[str]) -> dict[str, list[float]]:
         """For run.json: [lowest, when, highest, when] of the first signals, by name."""
@@ -83,6 +90,7 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, 
     signals = values.shape[1]
     best = np.concatenate([_of_stretches(np.fmax, values, length), -_of_stretches(np.fmin, values, length)])
     best[np.isnan(best)] = -np.inf
+    near = _tolerances(best, before)
     signal, stretch = np.nonzero(_near(best, before))
     column, sign = signal % signals, np.where(signal < signals, 1.0, -1.0)
 
@@ -90,7 +98,7 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, 
         """The places `of`: what they look at in these rows [of, rows]."""
         return np.asarray(sign[of, None] * values[at, column[of, None]])
 
-    row, value = _first_best(values, column, sign, stretch, length)
+    row, value = _first_best(values, column, sign, stretch, length, near[signal])
     t = rows.t[row]
     first, last = np.searchsorted(rows.t, t, side="left"), np.searchsorted(rows.t, t, side="right") - 1
     for which in steps:
@@ -105,12 +113,19 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, 
                 if at.shape[1] == 3:
                     peak[_bends_alone(rows, taken, of, at)] = -np.inf
                 t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
-                _raise_to(value, t, of, peak, t0 + share * (t1 - t0))
-    _raise_to(value, t, *peak_of_neighbours(rows, taken, row))
+                _raise_to(value, t, near[signal], of, peak, t0 + share * (t1 - t0))
+    _raise_to(value, t, near[signal], *peak_of_neighbours(rows, taken, row))
     when = np.full(best.shape, np.nan)
     best[signal, stretch], when[signal, stretch] = value, t
-    columns, place = np.arange(len(best)), best.argmax(axis=1)
-    return best[columns, place], when[columns, place]
+    top = best.max(axis=1)
+    place = ((best >= (top - near)[:, None]) & ~np.isnan(when)).argmax(axis=1)
+    return top, when[np.arange(len(best)), place]
+
+
+def _tolerances(best: Floats, before: Floats) -> Floats:
+    """How near to the highest a value of a signal has to be to count as it."""
+    top = np.maximum(before, best.max(axis=1, initial=-np.inf))
+    return np.asarray(tolerance(top, -np.roll(top, len(top) // 2)))
 
 
 def _of_stretches(best_of: np.ufunc, values: Floats, length: int) -> Floats:
@@ -124,9 +139,9 @@ def _of_stretches(best_of: np.ufunc, values: Floats, length: int) -> Floats:
 
 
 def _first_best(
-    values: Floats, column: Integers, sign: Floats, stretch: Integers, length: int
+    values: Floats, column: Integers, sign: Floats, stretch: Integers, length: int, near: Floats
 ) -> tuple[Integers, Floats]:
-    """Of places that look at a column in a stretch, with a sign: the first row with the highest value, and that value.
+    """Of places that look at a column in a stretch, with a sign: the first row at the highest value, and that value.
 
     The rows of a stretch are a slice of the values; to gather them one by one took twice as long.
     """
@@ -138,8 +153,9 @@ def _first_best(
     seen[~inside, : len(rest)] = rest[:, column[~inside]].T
     seen *= sign[:, None]
     seen[np.isnan(seen)] = -np.inf
-    first = seen.argmax(axis=1)
-    return length * stretch + first, seen[np.arange(len(stretch)), first]
+    highest = seen.max(axis=1)
+    first = (seen >= (highest - near)[:, None]).argmax(axis=1)
+    return length * stretch + first, highest
 
 
 def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
@@ -150,10 +166,10 @@ def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
         return np.asarray((best > so_far - MARGIN * (so_far - least)) | ~np.isfinite(so_far))
 
 
-def _raise_to(best: Floats, when: Floats, of: Integers, value: Floats, t: Floats) -> None:
-    """Take values of the places `of` that are above the best."""
-    higher = value > best[of]
-    best[of[higher]], when[of[higher]] = value[higher], t[higher]
+def _raise_to(best: Floats, when: Floats, near: Floats, of: Integers, value: Floats, t: Floats) -> None:
+    """Take values of the places `of` that are above the best, and their times if they are so by more than rounding."""
+    higher, later = value > best[of], value > best[of] + near[of]
+    best[of[higher]], when[of[later]] = value[higher], t[later]
 
 
 def _bends_alone(rows: Rows, taken: Taken, of: Integers, at: Integers) -> NDArray[np.bool_]:

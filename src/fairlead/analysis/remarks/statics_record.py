@@ -54,17 +54,24 @@ def state_record(state: State) -> dict[str, Any]:
     """One state of steady motion. Tensions in N, places in m along the route."""
     layers = shares(state)
     return {
-        "state": name(state), "speed": state.speed, "t": state.t, "paid_out": state.way, "in_sea": state.in_sea,
+        "state": name(state), "layer": layer(state), "speed": state.speed, "t": state.t,
+        "paid_out": state.way, "in_sea": state.in_sea,
         "stations": list(_stations(state)), "registration": layers.registration if layers else None,
         "estimated": ["core", "hose", "ruck_margin", "registration"] if layers else [],
     }  # fmt: skip
 
 
 def name(state: State) -> str:
-    """Paying out, hauling, or changing its speed."""
+    """Paying out, hauling, or changing its speed; on a drum with layers with the one that the line leaves."""
+    on = f", layer {layer(state)}" if layer(state) is not None else ""
     if state.acceleration:
-        return f"{state.acceleration:+.3g} m/s^2 at {state.t:g} s"
-    return "paying out" if state.speed > 0 else "hauling"
+        return f"{state.acceleration:+.3g} m/s^2 at {state.t:g} s{on}"
+    return f"{'paying out' if state.speed > 0 else 'hauling'}{on}"
+
+
+def layer(state: State) -> int | None:
+    """The layer of the drum that the line leaves."""
+    return state.route.layer(state.way)
 
 
 def _stations(state: State) -> Iterator[dict[str, Any]]:

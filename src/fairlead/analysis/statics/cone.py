@@ -2,6 +2,8 @@
 
 From a known end the tension may rise or fall along every surface by all that friction from rest can hold; a clamp
 adds what it can carry. What both ends allow is what can be held; where it lies inside depends on how it came to rest.
+Between two drives that hold, the carriage of a tensioner says which tension there is: it stands between its stops, or
+at one of them where no such tension can be held.
 """
 
 from __future__ import annotations
@@ -41,6 +43,8 @@ class Held:
     t: float
     way: float
     passages: tuple[HeldPassage, ...]
+    loop: str = ""
+    """What there is to say of a tensioner that sets the tension; nothing where none does."""
 
     @property
     def holds(self) -> bool:
@@ -59,23 +63,58 @@ def held(route: LaidRoute, t: float, way: float) -> Held:
     laid = list(pieces(route, t, 0.0, way))
     known_in = route.inboard.tension if route.inboard.tension is not None else -route.pull(route.inboard, t, 0.0, way)
     known_out = tail(route, t, 0.0, way)
-    from_left = _spread(route, laid, t, ANY if route.inboard.drives else (known_in, known_in), outward=True)
-    from_right = _spread(route, laid, t, ANY if route.outboard.drives else (known_out, known_out), outward=False)
-    least = -math.inf if route.pushes else 0.0
-    found = []
-    for (device, piece, _), left, right in zip(laid, from_left, reversed(from_right), strict=True):
-        ends = [_both(one, two, least) for one, two in zip(left, reversed(right), strict=True)]
-        found.append(HeldPassage(device.name if device else "", device, piece, *ends))
-    return Held(route, t, way, tuple(found))
+    before, beyond = (held(one, t, way).passages if one is not None else () for one in (route.before, route.beyond))
+    known = (
+        ANY if route.inboard.drives else before[-1].outboard if before else (known_in, known_in),
+        ANY if route.outboard.drives else beyond[0].inboard if beyond else (known_out, known_out),
+    )
+    ends, loop = _ends(route, laid, t, known), ""
+    for k, (_, piece, _) in enumerate(laid):
+        here = next((one for one in route.devices if one.begin == piece.begin and _sets(route, laid, k, one, t)), None)
+        if here is not None:
+            kept, loop = _kept(here, t, ends[k][0])
+            ends = _ends(route, laid, t, known, (k, kept))
+    found = [
+        HeldPassage(device.name if device else "", device, piece, *each)
+        for (device, piece, _), each in zip(laid, ends, strict=True)
+    ]
+    return Held(route, t, way, tuple(found), loop)
 
 
-def _spread(route: LaidRoute, laid: list[Laid], t: float, begin: Range, *, outward: bool) -> list[tuple[Range, Range]]:
-    """Ranges where each piece is entered and left, in the order of the march."""
-    found, now = [], begin
-    for device, piece, friction in laid if outward else reversed(laid):
-        entered, now = now, _through(route, device, piece, friction, t, now, outward)
-        found.append((entered, now))
-    return found
+def _sets(route: LaidRoute, laid: list[Laid], k: int, loop: Device, t: float) -> bool:
+    """Whether a device draws out a loop where piece k begins, with a drive that holds the line on either side."""
+    holds = [device is not None and device.machine is not None and device.machine.drives for device, _, _ in laid]
+    between = (route.inboard.drives or any(holds[:k])) and (route.outboard.drives or any(holds[k:]))
+    return between and loop.station.draws(t) is not None
+
+
+def _kept(loop: Device, t: float, can: Range) -> tuple[Range, str]:
+    """What a tensioner keeps of the tensions that can be held where it stands, and how to say so."""
+    least, most = float(loop.station.loosest(t)), float(loop.station.draws(t)) / 2
+    if can[0] > most:
+        return (most, math.inf), f"standing still the carriage of {loop.name} is at its inner stop"
+    if can[1] < least:
+        return (-math.inf, least), f"standing still the carriage of {loop.name} is at its outer stop"
+    text = f"{least:.4g} ... {most:.4g} N" if least != most else f"{most:.4g} N"
+    return (least, most), f"standing still is told with the carriage of {loop.name} between its stops, at {text}"
+
+
+def _ends(
+    route: LaidRoute, laid: list[Laid], t: float, known: tuple[Range, Range], kept: tuple[int, Range] = (-1, ANY)
+) -> list[tuple[Range, Range]]:
+    """What can be held at the inboard and at the outboard end of each piece; `kept` is a range where one begins."""
+    least, (here, narrow) = -math.inf if route.pushes else 0.0, kept
+    now, outward = known[0], []
+    for k, (device, piece, friction) in enumerate(laid):
+        entered = _both(now, narrow) if k == here else now
+        now = _through(route, device, piece, friction, t, entered, True)
+        outward.append((entered, now))
+    now, found = known[1], []
+    for k, (device, piece, friction) in reversed(list(enumerate(laid))):
+        entered, left = now, _through(route, device, piece, friction, t, now, False)
+        now = _both(left, narrow) if k == here else left
+        found.append((_both(outward[k][0], now, least), _both(outward[k][1], entered, least)))
+    return found[::-1]
 
 
 def _through(
@@ -104,5 +143,5 @@ def _beyond(piece: Piece, tension: float, friction: float, run: float) -> float:
     return beyond(piece, tension, friction, run) if math.isfinite(tension) else tension
 
 
-def _both(one: Range, two: Range, least: float) -> Range:
+def _both(one: Range, two: Range, least: float = -math.inf) -> Range:
     return max(one[0], two[0], least), min(one[1], two[1])

@@ -95,6 +95,11 @@ class LaidRoute:
     outboard: Machine
     winch: Device | None
     seas: tuple[Device, ...]
+    before: LaidRoute | None = None
+    """A line that pulls at its inboard end; `beyond`: at its outboard end (joined.py)."""
+    beyond: LaidRoute | None = None
+    moved_by: LaidRoute | None = None
+    """A line joined to it, of which a reference tells the speed of both."""
 
     @property
     def says(self) -> OfLine:
@@ -153,6 +158,13 @@ class LaidRoute:
             return 1.0
         return float(self.winch.station.leaves_at(self.stored(way), self.says.diameter))
 
+    def layer(self, way: float) -> int | None:
+        """The layer of the drum that the line leaves, from 1; None of a drum without layers."""
+        if self.winch is None:
+            return None
+        layer: int | None = self.winch.station.layer_at(self.stored(way), self.says.diameter)
+        return layer
+
     def drivers(self) -> Iterator[tuple[str, Machine]]:
         """All that takes whatever force its motion needs, inboard first."""
         if self.inboard.drives:
@@ -169,7 +181,7 @@ class LaidRoute:
         for _, drive in reversed(list(self.drivers())):
             if drive.speed is not None:
                 return self._scheduled(drive, drive.speed, run.start, run.stop)
-        return None
+        return self.moved_by.schedule() if self.moved_by is not None else None
 
     def _scheduled(self, drive: Machine, speed: Wave, begin: float, end: float) -> Schedule:
         """The speed of the line in a time that a machine gives with its own."""

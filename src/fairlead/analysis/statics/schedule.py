@@ -66,22 +66,23 @@ class Schedule:
     def steady(self, sign: int) -> Stretch | None:
         """The stretch that stands for a direction: the fastest, and the longest of those; 0: rest.
 
-        Of layers of a drum that turns steadily, the one with most line out. Without a steady stretch, the instant at
-        which the speed is greatest.
+        Without a steady stretch, the instant at which the speed is greatest.
         """
         here = [one for one in self.stretches() if _sign(one.speed) == sign]
-        if here and self.drum is not None:
-            turns, way = self.drum, self.way
-            return max(
-                here,
-                key=lambda one: (round(abs(turns((one.begin + one.end) / 2)), 9), max(way(one.begin), way(one.end))),
-            )
         if here:
             return max(here, key=lambda one: (round(abs(one.speed), 9), one.end - one.begin))
         if sign == 0:
             return Stretch(self.begin, self.begin, 0.0) if abs(self.speed(self.begin)) <= STILL else None
         t, speed = max(self._looks(sign), key=lambda one: sign * one[1])
         return Stretch(t, t, speed) if sign * speed > STILL else None
+
+    def layers(self, sign: int) -> list[Stretch]:
+        """Stretches in which a drum turns fastest in a direction, one for each layer that it pays out or takes up."""
+        if self.drum is None:
+            return []
+        here = [one for one in self.stretches() if _sign(one.speed) == sign]
+        turns = [round(abs(self.drum((one.begin + one.end) / 2)), 9) for one in here]
+        return [one for one, turn in zip(here, turns, strict=True) if turn == max(turns)]
 
     def _looks(self, sign: int) -> Iterator[tuple[float, float]]:
         """The instant of every piece at which the speed is greatest in a direction."""
@@ -101,7 +102,11 @@ class Schedule:
         if stretch is None:
             return None
         rests = [one for one in self.stretches() if _sign(one.speed) == sign] if sign == 0 else []
-        ends = [t for one in (rests or [stretch]) for t in (one.begin, one.end)]
+        return self.most_out(sign, *(rests or [stretch]))
+
+    def most_out(self, sign: int, *stretches: Stretch) -> float:
+        """The instant at an end of some stretches at which most line is out."""
+        ends = [t for one in stretches for t in (one.begin, one.end)]
         if sign == 0 and abs(self.speed(self.begin)) <= STILL:
             ends.append(self.begin)
         return max(ends, key=lambda t: round(self.way(t), 6))

@@ -18,9 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.analysis.statics.cone import Held, held
+from fairlead.analysis.statics.joined import joined
 from fairlead.analysis.statics.laid_route import Device, LaidRoute, laid_routes
 from fairlead.analysis.statics.pieces import Laid, bearing, pieces, tail
-from fairlead.analysis.statics.schedule import STILL, Schedule
+from fairlead.analysis.statics.schedule import STILL, Schedule, Stretch
+from fairlead.analysis.statics.shares import shares
 from fairlead.analysis.statics.sliding import Piece, along, beyond
 from fairlead.analysis.statics.states import Drive, Passage, State
 from fairlead.brief import in_a_line
@@ -53,7 +55,7 @@ class Statics:
 
 def statics(flat: FlatModel, speed: float | None = None) -> list[Statics]:
     """Statics of every line on a route; `speed` [m/s] replaces what the references say, and is taken both ways."""
-    return [_of(route, speed) for route in laid_routes(flat)]
+    return [_of(route, speed) for route in joined(laid_routes(flat))]
 
 
 def _of(route: LaidRoute, speed: float | None) -> Statics:
@@ -66,19 +68,62 @@ def _of(route: LaidRoute, speed: float | None) -> Statics:
         moving = [state(route, rest[0], way * speed, 0.0) for way in (1, -1)]
     elif schedule is not None:
         for sign in (1, -1):
-            t = schedule.furthest(sign)
-            if t is not None:
-                hardest = _hardest_while(route, schedule, sign, t)
-                if hardest != t:
-                    notes.append(f"what pulls at its ends changes while it moves; it is hardest at {hardest:.4g} s")
-                moving.append(state(route, hardest, _steady_speed(schedule, sign), schedule.way(hardest)))
+            for stretch, found in _told(route, schedule, sign):
+                if found.t != schedule.most_out(sign, stretch):
+                    notes.append(f"what pulls at its ends changes while it moves; it is hardest at {found.t:.4g} s")
+                moving.append(found)
         t = schedule.furthest(0)
         rest = (t, schedule.way(t)) if t is not None else rest
     else:
         rest = (_hardest(route), 0.0)
         remarks.append("no reference tells a speed of the line, so only standing still is told; --speed gives one")
     starts = tuple(starting(route, schedule)) if schedule is not None and speed is None else ()
-    return Statics(route, schedule, tuple(moving), held(route, *rest), starts, tuple(remarks), tuple(notes))
+    standing = held(route, *rest)
+    notes += [*([standing.loop] if standing.loop else []), *_neighbours(route)]
+    return Statics(route, schedule, tuple(moving), standing, starts, tuple(remarks), tuple(notes))
+
+
+def _told(route: LaidRoute, schedule: Schedule, sign: int) -> list[tuple[Stretch, State]]:
+    """The states that stand for a direction: its fastest, and layers of a drum in which something is larger than there.
+
+    The radius of a drum with layers makes the speed and the torque, the way paid out most of the pull, so that the
+    layer in which one is largest need not be that of another.
+    """
+    fastest = schedule.steady(sign)
+    if fastest is None:
+        return []
+    found = [(fastest, _steady(route, schedule, fastest, sign))]
+    others = [(one, _steady(route, schedule, one, sign)) for one in schedule.layers(sign) if one != fastest]
+    for measure in (_most_force, _most_torque, _most_tension, _most_pressed):
+        worst = max([*found, *others], key=lambda one: measure(one[1]))
+        if measure(worst[1]) > (1 + CHANGES) * max(measure(one) for _, one in found):
+            found.append(worst)
+    return found
+
+
+def _most_force(one: State) -> float:
+    return max((abs(drive.force) for drive in one.drives), default=0.0)
+
+
+def _most_torque(one: State) -> float:
+    return max((abs(drive.torque or 0.0) for drive in one.drives), default=0.0)
+
+
+def _most_tension(one: State) -> float:
+    return max([0.0, *(float(each.tension.max()) for each in one.passages)])
+
+
+def _most_pressed(one: State) -> float:
+    """Compression of the line, of an array that of its hose [N]."""
+    layers = shares(one)
+    lowest = [layers.lowest] if layers is not None else [float(each.tension.min()) for each in one.passages]
+    return max(-min(lowest, default=0.0), 0.0)
+
+
+def _steady(route: LaidRoute, schedule: Schedule, stretch: Stretch, sign: int) -> State:
+    """The state in a time of steady speed: with most line out, or when the ends are pulled hardest."""
+    t = _hardest_while(route, schedule, stretch, schedule.most_out(sign, stretch))
+    return state(route, t, stretch.speed, schedule.way(t))
 
 
 def _hardest(route: LaidRoute) -> float:
@@ -87,10 +132,9 @@ def _hardest(route: LaidRoute) -> float:
     return max(_looks(route, run.start, run.stop), key=lambda t: _pulled(route, t, 0.0, 0.0))
 
 
-def _hardest_while(route: LaidRoute, schedule: Schedule, sign: int, otherwise: float) -> float:
+def _hardest_while(route: LaidRoute, schedule: Schedule, stretch: Stretch, otherwise: float) -> float:
     """When the ends are pulled hardest while the line moves steadily; the time `otherwise` if that does not change."""
-    stretch = schedule.steady(sign)
-    if stretch is None or stretch.end <= stretch.begin:
+    if stretch.end <= stretch.begin:
         return otherwise
     way = schedule.way(otherwise)
     pulls = {t: _pulled(route, t, stretch.speed, way) for t in _looks(route, stretch.begin, stretch.end)}
@@ -106,13 +150,7 @@ def _looks(route: LaidRoute, begin: float, end: float) -> list[float]:
 
 def _pulled(route: LaidRoute, t: float, speed: float, way: float) -> float:
     """How hard both ends are pulled [N]."""
-    return abs(tail(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
-
-
-def _steady_speed(schedule: Schedule, sign: int) -> float:
-    stretch = schedule.steady(sign)
-    assert stretch is not None
-    return stretch.speed
+    return abs(outboard_tension(route, t, speed, way)) + abs(route.pull(route.inboard, t, speed, way))
 
 
 def starting(route: LaidRoute, schedule: Schedule) -> Iterator[State]:
@@ -140,11 +178,11 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
     begin, end = 0, len(laid)
     places = [_places(route, piece, way) for _, piece, _ in laid]
     march = _March(route, laid, places, t, speed, way, acceleration, found)
-    if left_known or not (right_known or drivers):
+    if left_known:
         tension = inboard_tension(route, t, speed, way, acceleration)
         begin = march.outward(tension, range(len(laid)))
     if right_known and (drivers or not left_known):
-        tension = tail(route, t, speed, way)
+        tension = outboard_tension(route, t, speed, way, acceleration)
         tension -= route.inertia(route.outboard, way) * acceleration
         end = march.inward(tension, range(len(laid) - 1, -1, -1))
     between = [k for k in range(begin, end) if k not in found and not _drives(laid[k][0])]
@@ -160,7 +198,7 @@ def state(route: LaidRoute, t: float, speed: float, way: float, acceleration: fl
 
 
 def _holds(laid: list[Laid], between: list[int], loop: Device) -> bool:
-    """True when a tensioner stands between two drives: its loop, half way out, sets the tension there."""
+    """True when a tensioner stands between two drives: its loop, which begins drawn in, sets the tension there."""
     return any(laid[k][1].begin == loop.begin for k in between)
 
 
@@ -170,9 +208,20 @@ def _places(route: LaidRoute, piece: Piece, way: float) -> NDArray[np.float64]:
     return distinct(np.concatenate([np.linspace(piece.begin, piece.end, POINTS), inside]))
 
 
+def outboard_tension(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> float:
+    """Tension [N] at the outboard end: what pulls there, or the line that is joined to it."""
+    if route.beyond is None:
+        return tail(route, t, speed, way)
+    passages = state(route.beyond, t, speed, way, acceleration).passages
+    return passages[0].inboard if passages else 0.0
+
+
 def inboard_tension(route: LaidRoute, t: float, speed: float, way: float, acceleration: float = 0.0) -> float:
     """Tension [N] at the inboard end: what the winch keeps or pulls with, and what the drum takes to be sped up."""
     made = route.inboard
+    if route.before is not None:
+        passages = state(route.before, t, speed, way, acceleration).passages
+        return passages[-1].outboard if passages else 0.0
     kept = made.tension if made.tension is not None else -route.pull(made, t, speed, way)
     heavy = 0.0 if made.paced else route.inertia(made, way) + route.mass * route.stored(way)
     return kept + heavy * acceleration
@@ -300,7 +349,7 @@ def _end_tension(march: _March, *, inboard: bool) -> float:
     if inboard and not route.inboard.drives:
         return inboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     if not inboard and not route.outboard.drives:
-        return tail(route, march.t, march.speed, march.way)
+        return outboard_tension(route, march.t, march.speed, march.way, march.acceleration)
     return route.says.tension
 
 
@@ -324,8 +373,17 @@ def _not_counted(route: LaidRoute) -> Iterator[str]:
             who = dict.fromkeys(_line_or_part(route, path) for path in made.left_out)
             counted = "acts there, and is" if len(who) == 1 else "act there, and are"
             yield f"{name}: {', '.join(who)} {counted} not counted"
-        if made.unknown:
+        if made.unknown and made.by not in route.flat.assembly.lines:
             yield f"{name}: what {made.by} gives cannot be told; it is taken to hold whatever comes"
+
+
+def _neighbours(route: LaidRoute) -> Iterator[str]:
+    """The lines that are joined to this one, and what is taken of them."""
+    for end, made, other in (("inboard", route.inboard, route.before), ("outboard", route.outboard, route.beyond)):
+        if other is not None:
+            yield f"{end} end: {other.line.path} is joined to it, and pulls with what its own statics says"
+        elif made.unknown and made.by in route.flat.assembly.lines:
+            yield f"{end} end: {made.by} is joined to it, and gives whatever force its motion takes"
 
 
 def _line_or_part(route: LaidRoute, path: str) -> str:

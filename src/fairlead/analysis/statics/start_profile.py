@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from fairlead.analysis.statics.joined import joined
 from fairlead.analysis.statics.laid_route import LaidRoute, laid_routes
 from fairlead.analysis.statics.schedule import LOOKS, STILL
 from fairlead.analysis.statics.solution import state
@@ -22,7 +23,7 @@ from fairlead.flatten.flat_model import FlatModel
 
 def laid_under_statics(flat: FlatModel) -> FlatModel:
     """The model with the elements of such lines cut anew. Raises ModelError where no reference moves the line."""
-    lines = [laid for laid in laid_routes(flat) if laid.says.begins_sliding]
+    lines = [laid for laid in joined(laid_routes(flat)) if laid.says.begins_sliding]
     if not lines:
         return flat
     made: dict[str, Instance] = {}

@@ -13,6 +13,16 @@ static double followed(const Follower *one, double p) {
     case LAW_INVERSE_SQUARE: return one->offset + one->slope * (1.0 / (p * p));
     case LAW_ROOT: return one->offset + one->slope * sqrt(p);
     case LAW_INVERSE_ROOT: return one->offset + one->slope * (1.0 / sqrt(p));
+    case LAW_THREE_HALVES: return one->offset + one->slope * (p * sqrt(p));
+    case LAW_INVERSE_THREE_HALVES: return one->offset + one->slope * (1.0 / (p * sqrt(p)));
+    case LAW_CUBE: return one->offset + one->slope * (p * p * p);
+    case LAW_INVERSE_CUBE: return one->offset + one->slope * (1.0 / (p * p * p));
+    case LAW_FOURTH: return one->offset + one->slope * (p * p * (p * p));
+    case LAW_INVERSE_FOURTH: return one->offset + one->slope * (1.0 / (p * p * (p * p)));
+    case LAW_SQUARED_LINE: {
+        const double line = one->offset + one->slope * p;
+        return line * line;
+    }
     default: return 1.0 / (one->offset + one->slope * p);
     }
 }

@@ -5,7 +5,11 @@
 #include <stdint.h>
 
 /* A number of memory that follows a parameter. */
-enum { LAW_LINEAR, LAW_INVERSE, LAW_SQUARE, LAW_INVERSE_SQUARE, LAW_ROOT, LAW_INVERSE_ROOT, LAW_RECIPROCAL };
+enum {
+    LAW_LINEAR, LAW_INVERSE, LAW_SQUARE, LAW_INVERSE_SQUARE, LAW_ROOT, LAW_INVERSE_ROOT, LAW_THREE_HALVES,
+    LAW_INVERSE_THREE_HALVES, LAW_CUBE, LAW_INVERSE_CUBE, LAW_FOURTH, LAW_INVERSE_FOURTH, LAW_SQUARED_LINE,
+    LAW_RECIPROCAL
+};
 typedef struct { int64_t at; int parameter, law; double offset, slope; } Follower;
 
 /* When a parameter can be set: until the start, from then on, or always. */

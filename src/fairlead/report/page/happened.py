@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from fairlead.report.measured import measured
 from fairlead.report.page.sentence import Sentence
 from fairlead.report.page.signals import families, first_panels
-from fairlead.report.page.zones import PIECE, meaning, starts
-from fairlead.results.events import lasting
+from fairlead.report.page.zones import meaning, starts
+from fairlead.results.events import PIECE, lasting
+from fairlead.results.plateau import ROUNDED as LAST_DIGITS
+from fairlead.results.plateau import first_of
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -32,6 +34,9 @@ STEADY = 0.02
 """Spread of the times between two beginnings, by their mean, below which something repeats."""
 MOVES = {"slide": ("forward", "backward"), "go slack": ("slack",)}
 """What contacts and ropes of a line are told to do; that they touch and stick is not news."""
+BOTH_WAYS = ("forward", "backward")
+RESTS = ("stuck", "between", "off")
+"""What the zones of a contact mean besides that it slides: a part without any of them is no contact."""
 DOES = {"slide": "slides", "go slack": "is slack"}
 
 
@@ -41,6 +46,13 @@ class Span(NamedTuple):
     begin: float
     end: float
     zone: str
+    slides: bool = True
+    """Whether it is a contact, of which `forward` and `backward` say that it slides; a valve is open either way."""
+
+    @property
+    def means(self) -> str:
+        """What the zone means to a reader, if that is known."""
+        return meaning(self.zone) if self.slides or self.zone not in BOTH_WAYS else ""
 
 
 def happened(result: Result) -> Iterator[Sentence]:
@@ -87,15 +99,24 @@ def spans(result: Result) -> dict[str, list[Span]]:
         return {}
     first, last = float(result.t[0]), float(result.t[-1])
     found: dict[str, list[Span]] = {}
+    contacts = _contacts(result)
     since = {name: (first, zone) for name, zone in starts(result.run).items()}
     for event in lasting(result.events, last - first):
         t, zone = since.get(event.component, (first, event.zone_from))
-        found.setdefault(event.component, []).append(Span(t, event.t, zone))
+        found.setdefault(event.component, []).append(Span(t, event.t, zone, event.component in contacts))
         since[event.component] = (event.t, event.zone_to)
         last = max(last, event.t)
     for name, (t, zone) in since.items():
-        found.setdefault(name, []).append(Span(t, last, zone))
+        found.setdefault(name, []).append(Span(t, last, zone, name in contacts))
     return {name: each for name, each in found.items() if not all(PIECE.fullmatch(one.zone) for one in each)}
+
+
+def _contacts(result: Result) -> set[str]:
+    """Parts that can stick or lift off; of what is told of old runs, all."""
+    has = {one["family"]: one["zones"] for one in result.run.get("zones") or ()}
+    names = {*starts(result.run), *(event.component for event in result.events)}
+    return {name for name in names
+            if any(meaning(zone) in RESTS for zone in has.get(family(name)[0], ("off",)))}  # fmt: skip
 
 
 def _kinds(result: Result) -> list[tuple[str, tuple[str, str], float]]:
@@ -130,16 +151,16 @@ def _telling(
 
 def _one(name: str, each: Sequence[Span]) -> tuple[str, tuple[str, str], float]:
     """What a single part did: all its zones where they are few, else how often and for how long it left the first."""
-    first, label = each[1].begin, f"{name} {_does(each[1].zone)}"
+    first, label = each[1].begin, f"{name} {_does(each[1])}"
     if len(each) <= MOST_TOLD + 1:
         begun = f"{_word(each[0].zone).capitalize()} at first"
         rest = [f"{_word(one.zone)} from {_at(one.begin)}" for one in each[1:]]
         return label, (name, f"{begun}, {', '.join(rest)}."), first
     groups: dict[str, list[Span]] = defaultdict(list)
     for one in _joined(each):
-        groups[_does(one.zone)].append(one)
+        groups[_does(one)].append(one)
     whole = each[-1].end - each[0].begin or 1.0
-    home = _does(each[0].zone)
+    home = _does(each[0])
     told = [_often(does, found, whole) for does, found in groups.items() if does != home][:2]
     return label, (name, f"It {home} at first. {' '.join(told)}".strip()), first
 
@@ -148,7 +169,7 @@ def _joined(each: Sequence[Span]) -> list[Span]:
     """Spans in which a part does the same, joined: to slide forward and then backward is to slide."""
     found: list[Span] = []
     for one in each:
-        if found and _does(found[-1].zone) == _does(one.zone):
+        if found and _does(found[-1]) == _does(one):
             found[-1] = found[-1]._replace(end=one.end)
         else:
             found.append(one)
@@ -174,13 +195,13 @@ def _often(does: str, found: Sequence[Span], whole: float) -> str:
 def _many(name: str, parts: Mapping[str, Sequence[Span]]) -> tuple[str, tuple[str, str], float] | None:
     """How many of alike parts moved, at most at once, and which was first."""
     said, instant = [], []
-    zones = dict.fromkeys(one.zone for each in parts.values() for one in each)
-    moves = any(meaning(zone) in of for zone in zones for of in MOVES.values())
-    news = [] if moves else [zone for zone in zones if not meaning(zone) and not PIECE.fullmatch(zone)]
-    kinds = {**{does: lambda zone, of=of: meaning(zone) in of for does, of in MOVES.items()},
-             **{zone: lambda other, own=zone: other == own for zone in news}}  # fmt: skip
+    zones = {one.zone: one.means for each in parts.values() for one in each}
+    moves = any(means in of for means in zones.values() for of in MOVES.values())
+    news = [] if moves else [zone for zone, means in zones.items() if not means and not PIECE.fullmatch(zone)]
+    kinds = {**{does: lambda one, of=of: one.means in of for does, of in MOVES.items()},
+             **{zone: lambda one, own=zone: one.zone == own for zone in news}}  # fmt: skip
     for does, fits in kinds.items():
-        found = [(one, part) for part, each in parts.items() for one in each if fits(one.zone) and one.end > one.begin]
+        found = [(one, part) for part, each in parts.items() for one in each if fits(one) and one.end > one.begin]
         if not found:
             continue
         first, who = min(found, key=lambda one: one[0].begin)
@@ -206,11 +227,11 @@ def _at_once(found: Sequence[Span]) -> tuple[int, float]:
     return most, when
 
 
-def _does(zone: str) -> str:
+def _does(one: Span) -> str:
     for does, means in MOVES.items():
-        if meaning(zone) in means:
+        if one.means in means:
             return DOES[does]
-    return "sticks" if meaning(zone) == "stuck" else f"is {_word(zone)}"
+    return "sticks" if one.means == "stuck" else f"is {_word(one.zone)}"
 
 
 def _word(zone: str) -> str:
@@ -240,10 +261,11 @@ def _reach(result: Result, members: Sequence[Signal]) -> str:
     each = [(number, found) for number, found in each if math.isfinite(found.lowest + found.highest)]
     if not each:
         return ""
-    low, high = min(each, key=lambda one: one[1].lowest), max(each, key=lambda one: one[1].highest)
+    low = each[first_of([one.lowest for _, one in each], least=True)]
+    high = each[first_of([one.highest for _, one in each], least=False)]
     least, most = low[1].lowest, high[1].highest
     size = ROUNDED * min(max(abs(least), abs(most)), 1.0)
-    if most == least:
+    if most - least <= LAST_DIGITS * max(abs(most), abs(least)):
         return f"It is {measured(least, unit)} all the time."
     ends = (("lowest", least, low[1].t_lowest, low[0]), ("highest", most, high[1].t_highest, high[0]))
     said = [f"{word} {measured(value if abs(value) > size else 0.0, unit)} at {_at(t)}"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from fairlead.report.page.places import named, without_folders
+
 if TYPE_CHECKING:
     from fairlead.results import Result
 
@@ -27,7 +29,7 @@ def scene_data(result: Result) -> dict[str, Any]:
     scene = result.run.get("scene") or {}
     components = scene.get("components") or {}
     return {
-        "files": {name: text.splitlines() for name, text in (scene.get("files") or {}).items()},
+        "files": {named(name, result.run): text.splitlines() for name, text in (scene.get("files") or {}).items()},
         "parameters": {name: _told(value) for name, value in (scene.get("parameters") or {}).items()},
         "set": scene.get("set") or {},
         "chosen": dict(_flat({"effects": scene.get("effects") or result.run.get("effects") or {},
@@ -42,7 +44,7 @@ def settings_rows(run: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Versions, settings and counters, nested ones under the words above them."""
     first = {"versions": run.get("versions") or {"fairlead": UNKNOWN}}
     rest = {key: value for key, value in run.items() if key not in APART and key not in first}
-    return [(words, _told(value)) for words, value in _flat(first | rest)]
+    return [(words, without_folders(_told(value), run)) for words, value in _flat(first | rest)]
 
 
 def shared(scenes: Sequence[dict[str, Any]], labels: Sequence[str]) -> list[str]:

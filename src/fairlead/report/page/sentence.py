@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from fairlead.analysis.margins.ruck_words import figure
@@ -26,6 +26,10 @@ class Sentence(NamedTuple):
     def opens(self) -> bool:
         """True for what a reader must not overlook, and finds nowhere else."""
         return self.mood in ("bad", "fair") and not self.above
+
+    def rewritten(self, rewrite: Callable[[str], str]) -> Sentence:
+        """The same with other texts."""
+        return self._replace(text=rewrite(self.text), points=[(word, rewrite(text)) for word, text in self.points])
 
 
 def ended(text: str) -> str:

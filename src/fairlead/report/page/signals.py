@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.report.page.packing import MOST_BYTES, packed, packed_times
+from fairlead.results.plateau import first_of
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
@@ -109,8 +110,8 @@ def worst_rows(result: Result) -> list[dict[str, Any]]:
         found = [(one.name, result.extremes(one.name)) for one in members]
         found = [(one, each) for one, each in found if np.isfinite(each.lowest)]
         if found:
-            low = min(found, key=lambda one: one[1].lowest)
-            high = max(found, key=lambda one: one[1].highest)
+            low = found[first_of([one.lowest for _, one in found], least=True)]
+            high = found[first_of([one.highest for _, one in found], least=False)]
             rows.append({
                 "name": name, "count": len(members), "unit": members[0].unit, "doc": members[0].description,
                 "low": low[1].lowest, "t_low": low[1].t_lowest, "who_low": low[0],

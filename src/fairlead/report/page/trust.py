@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from fairlead.analysis.margins.ruck_words import moment
-from fairlead.analysis.margins.settled import SMALL
+from fairlead.analysis.margins.settled import SMALL, much
 from fairlead.analysis.margins.settled import sentence as of_drift
 from fairlead.analysis.record.energy import open_by, suspects
 from fairlead.analysis.treatments.friction_record import sentence as of_friction
@@ -53,14 +53,23 @@ def _settled(run: dict[str, Any]) -> Iterator[Sentence]:
         return
     if not found["settled"]:
         told = any(one["line"] == found["line"] for one in run.get("ruck") or ())  # with the verdict on that line
-        said = (f"The {found['layer']} still changes at constant speed, by {100 * found['change']:.2g} % from one half "
-                "of the time to the other. The verdict has the figures.")  # fmt: skip
+        said = (f"The {found['layer']} still changes at constant speed, by {much(found)} from one half of the time to "
+                "the other. The verdict has the figures.")  # fmt: skip
         yield Sentence("Not settled", "fair", said if told else of_drift(found), brief="not settled", above=told)
         return
     yield Sentence("Settled", "good",
                    f"At constant speed, {moment(found['from'])} to {moment(found['to'])} s, the extremes of the "
-                   f"tension of the {found['layer']} change by {100 * found['change']:.2g} % at most from the first "
-                   "half of that time to the second.")  # fmt: skip
+                   f"tension of the {found['layer']} change by at most {much(found)}, from the first half of that "
+                   f"time to the second.{_beside(run, found)}")  # fmt: skip
+
+
+def _beside(run: dict[str, Any], found: dict[str, Any]) -> str:
+    """What the force is that a change is told as a share of."""
+    lines = {one["line"]: one.get("ruck_force") for one in run.get("routes") or ()}
+    beside, rucks = found.get("beside"), lines.get(found["line"])
+    if not beside:
+        return ""
+    return f" At {number(beside)} N it rucks." if beside == rucks else f" Its tensions span {number(beside)} N."
 
 
 def _hose(run: dict[str, Any]) -> Iterator[Sentence]:

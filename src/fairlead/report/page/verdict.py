@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from fairlead.analysis.margins.ruck_words import moment
 from fairlead.analysis.record.reported import told
 from fairlead.report.page.happened import happened
+from fairlead.report.page.places import without_folders
 from fairlead.report.page.rucking import rucking
 from fairlead.report.page.sentence import Sentence, ended
 from fairlead.report.page.slow import slowest
@@ -22,6 +23,10 @@ def verdict(result: Result) -> list[Sentence]:
 
     Of a run that did not finish, that comes first, and what was good holds so far.
     """
+    return [one.rewritten(lambda text: without_folders(text, result.run)) for one in _verdict(result)]
+
+
+def _verdict(result: Result) -> list[Sentence]:
     run = result.run
     found, end = [*rucking(result), *_limits(run)], list(_finished(run))
     if run["status"] == "finished":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -95,8 +96,15 @@ def _labels(runs: Sequence[Result]) -> list[str]:
              for scene in scenes]  # fmt: skip
     found = [f"{name} ({more or 'as written'})" for name, more in zip(names, given, strict=True)]
     if len(set(found)) < len(found):
-        found = [f"{name} in {one.folder}" for name, one in zip(names, runs, strict=True)]
+        found = [f"{name} in {folder}" for name, folder in zip(names, _folders(runs), strict=True)]
     return found
+
+
+def _folders(runs: Sequence[Result]) -> list[str]:
+    """The folders of runs, without what all of them have in common."""
+    folders = [one.folder.resolve() for one in runs]
+    above = Path(os.path.commonpath([one.parent for one in folders]))
+    return [str(one.relative_to(above)) for one in folders]
 
 
 def _value(scene: Mapping[str, Any], key: str) -> Any:

@@ -6,7 +6,6 @@ A row is a contact or another part that changes zone. Parts whose zones are the 
 
 from __future__ import annotations
 
-import re
 from collections import Counter, defaultdict
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -14,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.report.page.packing import packed_numbers
+from fairlead.results.events import PIECE
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:
     from fairlead.results import Result
 
-PIECE = re.compile(r"\w+ \d+")
 MOST_CHANGES = 250_000
 """Zone changes on a page; of more, the parts that change most often are left out, with a sentence."""
 MEANS = {
@@ -69,11 +68,11 @@ def _changes(result: Result) -> dict[str, list[tuple[float, str, str]]]:
 
 def starts(run: Mapping[str, Any]) -> dict[str, str]:
     """The zone at the start, by part."""
-    found = {}
+    found: dict[str, str] = {}
     for one in run.get("zones") or ():
         for number, first in zip(one["elements"], one["start"], strict=True):
             name = one["family"] if number is None else one["family"].replace("[*]", f"[{number}]")
-            found[name] = one["zones"][first]
+            found.setdefault(name, one["zones"][first])  # of several tables of a part, the first
     return found
 
 

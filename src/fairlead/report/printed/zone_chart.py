@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from fairlead.errors import UsageError
 from fairlead.patterns import picked
 from fairlead.report.figures import WIDTH
-from fairlead.report.page.zones import PIECE, meaning, starts
+from fairlead.report.page.zones import meaning, starts
+from fairlead.results.events import PIECE
 from fairlead.results.signal import family
 
 if TYPE_CHECKING:

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.cases.separators import separated_otherwise
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, fits, kind, parse_unit
 
@@ -63,6 +64,8 @@ def read_table(file: Path, where: Location) -> tuple[Table | None, list[Fault]]:
         what = "this file is empty" if not filled else f"this file has {max(len(filled) - 1, 0)} rows below its names"
         return None, [Fault(Location(str(file), 1, 1), what, f"A record has names and {FEWEST} rows or more.")]
     first, head = filled[0]
+    if other := separated_otherwise(head):
+        return None, [Fault(Location(str(file), first, 1), *other)]
     parts = [_named(cell) for cell in head]
     names = [name for name, _ in parts]
     if not all(names) or len(set(names)) < len(names) or all(_number(cell) is not None for cell in head):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 Draw = Callable[["Figure", Rows, str], None]
 LONGEST = 80
 MOST_CURVES, MOST_SCATTERED = 8, 6
+MOST_LETTERS, MOST_TICKS = 60, 12
 ROOM = 0.2  # of the width of a tornado, for what stands at the ends of its bars
 
 
@@ -81,12 +83,12 @@ def _response(made: Figure, rows: Rows, figure: str) -> None:
     groups = list(rows.finished.groupby(others)) if others else [((), rows.finished)]
     for number, (key, part) in enumerate(groups[:MOST_CURVES]):
         part = part.sort_values(along)
-        told = ", ".join(f"{name} = {_value(one)}" for name, one in zip(others, key, strict=True))
+        told = ", ".join(f"{name} = {rows.value(name, one)}" for name, one in zip(others, key, strict=True))
         ax.plot(part[along], part[figure], marker=".", color=COLOURS[number % len(COLOURS)], label=told or None)
     if others:
-        left = f"{len(groups) - MOST_CURVES} more are not shown" if len(groups) > MOST_CURVES else ""
-        made.legend(fontsize=8, loc="outside right upper", title=left)
-    _named(ax, along, rows.label(figure))
+        left = f"{MOST_CURVES} of {len(groups)} curves" if len(groups) > MOST_CURVES else ""
+        made.legend(fontsize=8, loc="outside right upper", title=left, title_fontsize=8)
+    _named(ax, _axis(rows, along), rows.label(figure))
 
 
 def _heat_map(made: Figure, rows: Rows, figure: str) -> None:
@@ -96,8 +98,13 @@ def _heat_map(made: Figure, rows: Rows, figure: str) -> None:
     ax.set_facecolor("0.8")
     ax.grid(visible=False)
     colours = ax.pcolormesh(table.columns, table.index, table.to_numpy(dtype=float), shading="nearest", cmap="viridis")
-    made.colorbar(colours, ax=ax, label=rows.label(figure))
-    _named(ax, x, y)
+    bar = made.colorbar(colours, ax=ax)
+    others = [name for name in rows.varied if name not in (x, y)]
+    over = f", mean over {', '.join(others)}" if others else ""
+    bar.set_label(f"{rows.label(figure)}{over}", parse_math=False)
+    ax.set_xticks(_few(table.columns))
+    ax.set_yticks(_few(table.index))
+    _named(ax, _axis(rows, x), _axis(rows, y))
 
 
 def _scatter(made: Figure, rows: Rows, figure: str) -> None:
@@ -105,7 +112,7 @@ def _scatter(made: Figure, rows: Rows, figure: str) -> None:
     axes = np.atleast_1d(made.subplots(-(-len(names) // 2), min(len(names), 2), sharey=True, squeeze=False)).ravel()
     for ax, name in zip(axes, names, strict=False):
         ax.plot(rows.finished[name], rows.finished[figure], ".", markersize=3, color=COLOURS[0])
-        _named(ax, name, rows.label(figure))
+        _named(ax, _axis(rows, name), rows.label(figure))
     for ax in axes[len(names) :]:
         ax.set_axis_off()
 
@@ -139,7 +146,7 @@ def _failures(made: Figure, rows: Rows, figure: str) -> None:
         ax.plot(place, height, "o" if word == FINISHED else "X", markersize=4, linestyle="",
                 color=COLOURS[number % len(COLOURS)], label=f"{word}: {int(mine.sum())}")  # fmt: skip
     made.legend(fontsize=8, loc="outside right upper")
-    _named(ax, x, y or "")
+    _named(ax, _axis(rows, x), _axis(rows, y) if y else "")
 
 
 def _indices(made: Figure, rows: Rows, figure: str) -> None:
@@ -168,5 +175,14 @@ def _named(ax: Any, x: str, y: str) -> None:
     ax.set_ylabel(y, parse_math=False)
 
 
-def _value(value: Any) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+def _axis(rows: Rows, parameter: str) -> str:
+    """A parameter with its unit, and below it what that is, where somebody says so."""
+    doc = rows.about(parameter)[1].replace("`", "").partition(". ")[0].rstrip(".")
+    if doc.casefold() == parameter.rpartition(".")[2].replace("_", " "):  # `mass` is a mass
+        doc = ""
+    return f"{rows.label(parameter)}\n{shorten(doc, MOST_LETTERS)}" if doc else rows.label(parameter)
+
+
+def _few(values: Any) -> list[float]:
+    """Of the values of a grid those that have a tick: all, or every so many."""
+    return [float(one) for one in values][:: -(-len(values) // MOST_TICKS)]

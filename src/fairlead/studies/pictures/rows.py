@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from fairlead.cases.row import FINISHED
 from fairlead.errors import UsageError, did_you_mean, listing, shown
+from fairlead.report.measured import measured
 from fairlead.studies.sweeps.table import of_design, read
 
 if TYPE_CHECKING:
@@ -65,7 +66,19 @@ class Rows:
             raise UsageError(f"{name} has no value in any case, so there is nothing to draw.\n    {others}")
         return name
 
-    def label(self, figure: str) -> str:
-        """A figure with its unit."""
-        unit = self.heading["units"][figure]
-        return figure if unit in ("", "1") else f"{figure} [{unit}]"
+    def label(self, name: str) -> str:
+        """A figure or a parameter with its unit."""
+        unit = self.heading["units"].get(name) or self.about(name)[0]
+        return name if unit in ("", "1") else f"{name} [{unit}]"
+
+    def about(self, parameter: str) -> tuple[str, str]:
+        """Unit and description of a parameter; "" for what is not known, and in a table of old."""
+        unit, doc = (self.heading.get("about") or {}).get(parameter, ("", ""))
+        return unit, doc
+
+    def value(self, parameter: str, value: Any) -> str:
+        """A value of a parameter with its unit."""
+        if not isinstance(value, float):
+            return str(value)
+        unit = self.about(parameter)[0]
+        return f"{value:.4g}" if unit in ("", "1") else measured(value, unit, 4)

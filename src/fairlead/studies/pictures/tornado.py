@@ -38,14 +38,15 @@ def tornado(rows: Rows, figure: str) -> list[Bar]:
     for name in rows.varied:
         values = frame[name]
         bins = max(min(MOST_BINS, len(frame) // FEWEST_IN_A_BIN), 2)
-        if name in rows.numbers and values.nunique() > MOST_BINS:
+        in_grid = name in rows.heading["design"]["grid"]
+        if name in rows.numbers and not in_grid and values.nunique() > MOST_BINS:
             ranks = values.rank(method="first").to_numpy() - 1
             places = np.minimum((ranks * bins / len(frame)).astype(int), bins - 1)
-            labels = [f"{values[places == k].mean():.4g}" for k in range(bins)]
+            labels = [rows.value(name, float(values[places == k].mean())) for k in range(bins)]
             means = [float(frame[figure][places == k].mean()) for k in range(bins)]
         else:
             grouped = frame.groupby(name)[figure].mean()
-            labels = [f"{one:.4g}" if name in rows.numbers else str(one) for one in grouped.index]
+            labels = [rows.value(name, float(one) if name in rows.numbers else one) for one in grouped.index]
             means = grouped.tolist()
         if len(means) > 1:
             low, high = int(np.argmin(means)), int(np.argmax(means))

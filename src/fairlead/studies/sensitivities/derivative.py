@@ -6,7 +6,9 @@ halving twice; the error of the derivative is what both differ by, and what nois
     jump     f(+-h) - f0 stays the same size while h becomes four times smaller
     corner   (f(h) - f0)/h and (f0 - f(-h))/h stay apart: the slopes on both sides are different
 
-Where f is smooth the first falls by 4, and so does the difference of both slopes, which is h f''. A jump at some
+Where f is smooth the first falls by 4, and so does the difference of both slopes, which is h f''. At a corner each
+slope stays what it is, to half of what they differ by; where both scatter, the run has more noise than points very near
+each other show, and half of the difference counts as error. A jump at some
 distance is no fault of the derivative; it is told beside it, as a corner is, and the step stays short of it.
 """
 
@@ -93,7 +95,7 @@ def derivative(
     slope = made.slope(step.size) if found.status == SMOOTH else None
     value = None if slope is None else slope / varied.scale
     relative = None if value is None or not at or not varied.value else value * varied.value / at
-    error = None if value is None else step.deviation / varied.scale
+    error = None if value is None else max(step.deviation, made.scatter(step)) / varied.scale
     below, above = (None if one is None else one / varied.scale for one in (found.below, found.above))
     return Derivative(figure, varied.name, found.status, at, value, unit, relative, error, step.size * varied.scale,
                       below, above, found.sentence)  # fmt: skip
@@ -119,9 +121,11 @@ class _Side:
             return _Found(UNTOLD, self.no_value())
         if corner := self._corner(step, done):
             return corner
-        if step.deviation > TRUSTED * abs(self.slope(step.size)) and not self._flat(step.size, done):
+        off = max(step.deviation, self.scatter(step))
+        if off > TRUSTED * abs(self.slope(step.size)) and not self._flat(step.size, done):
             drowned = self.noise / step.size > step.deviation / 2
-            return _Found(UNTOLD, DROWNED.format(self.noise) if drowned else UNSETTLED.format(step.error))
+            share = step.error * (off / step.deviation if step.deviation else 1.0)
+            return _Found(UNTOLD, DROWNED.format(self.noise) if drowned else UNSETTLED.format(share))
         return _Found(SMOOTH, beyond)
 
     def nearest_jump(self, step: Step) -> tuple[float, str]:
@@ -207,19 +211,37 @@ class _Side:
         return self._with_switch(what, 0.0, change)
 
     def _corner(self, step: Step, done: Sequence[float]) -> _Found | None:
-        pairs = [(one, other) for one, other in itertools.pairwise(done) if one <= step.size]
-        if len(self.sides()) < 2 or not pairs:
+        sizes = [size for size in done if size <= step.size][:3]
+        if not self._apart_on_both_sides(sizes) or self._scatters(sizes):
             return None
-        size, smaller = pairs[0]
-        (below, above), near = self._slopes(size), self._slopes(smaller)
-        gap, next_gap = abs(above - below), abs(near[1] - near[0])
-        steepest = max(abs(below), abs(above))
-        if not (gap > CLEAR * steepest and next_gap > LEAST_RATIO * gap and
-                next_gap > ABOVE_NOISE * self.noise / smaller):  # fmt: skip
-            return None
+        size, near = sizes[0], self._slopes(sizes[1])
         ends = [self._end(side, size) for side in (-1.0, 1.0)]
         what = f"it has a corner at {self._name(0.0)}: the slopes on both sides differ"
         return _Found(CORNER, self._with_switch(what, *ends), *near)
+
+    def scatter(self, step: Step) -> float:
+        """What a derivative is off by because the slopes on both sides differ, and not as at a corner; else 0."""
+        sizes = [size for size in self._done() if size <= step.size][:3]
+        if not self._apart_on_both_sides(sizes) or not self._scatters(sizes):
+            return 0.0
+        below, above = self._slopes(sizes[0])
+        return abs(above - below) / 2
+
+    def _apart_on_both_sides(self, sizes: Sequence[float]) -> bool:
+        """Whether the slopes on both sides differ by more than noise, and go on doing so with a smaller step."""
+        if len(self.sides()) < 2 or len(sizes) < 2:
+            return False
+        (below, above), near = self._slopes(sizes[0]), self._slopes(sizes[1])
+        gap, next_gap = abs(above - below), abs(near[1] - near[0])
+        return bool(gap > CLEAR * max(abs(below), abs(above)) and next_gap > LEAST_RATIO * gap and
+                    next_gap > ABOVE_NOISE * self.noise / sizes[1])  # fmt: skip
+
+    def _scatters(self, sizes: Sequence[float]) -> bool:
+        """Whether the slopes of both sides change with the step by half of what they differ by, and more than noise."""
+        slopes = [self._slopes(size) for size in sizes]
+        gap = abs(slopes[0][1] - slopes[0][0])
+        return any(abs(one[0] - other[0]) + abs(one[1] - other[1]) > LEAST_RATIO * gap + ABOVE_NOISE * self.noise / size
+                   for (one, other), size in zip(itertools.pairwise(slopes), sizes[1:]))  # fmt: skip
 
     def _slopes(self, size: float) -> tuple[float, float]:
         """Differences to below and to above."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fairlead.component.numbers import numbers, numbers_of_scene
+from fairlead.component.numbers import named_unit, numbers, numbers_of_scene
 from fairlead.component.values import Group, Values
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
 from fairlead.quantities import QuantityError, si
@@ -38,6 +38,7 @@ class Varied:
 def asked_parameters(model: Model, wanted: Mapping[str, str | float | None], faults: list[Fault]) -> list[Varied]:
     """The parameters of these names, each with its size if one is given; what is wrong goes to `faults`."""
     known = numbers(model.netlist, model.assembly.entries)
+    known = {name: (value, named_unit(unit)) for name, (value, unit) in known.items()}
     found = (_varied(model, known, name, size, faults) for name, size in wanted.items())
     return [one for one in found if one is not None]
 

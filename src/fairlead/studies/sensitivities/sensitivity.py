@@ -13,7 +13,7 @@ import numpy as np
 from fairlead.arguments import Arguments, keywords_told
 from fairlead.cases.cases import Cases
 from fairlead.cases.figures import Function
-from fairlead.errors import FairleadError, Fault, ModelError
+from fairlead.errors import FairleadError, Fault, Location, ModelError
 from fairlead.quantities import quotient
 from fairlead.studies.differences.steps import LADDER, NEAR, near, noise_of
 from fairlead.studies.sensitivities.derivative import derivative
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fairlead.model import Model
 
 Figures = str | Function | Iterable[str] | Mapping[str, str | Function]
+FIGURES = Location("of")
 Parameters = str | Iterable[str] | Mapping[str, str | float | None]
 
 
@@ -76,10 +77,14 @@ def _asked(
         cases = Cases(model, _figures(of), max_steps=max_steps)
     except ModelError as error:
         raise ModelError([*error.faults, *faults]) from None
-    if not varied and not faults:
+    if not varied and not faults and to is not None:
+        faults.append(Fault(PLACE, "no parameter is named", "Leave it out: then all numbers of the scene are taken."))
+    elif not varied and not faults:
         known = f"Name one of its components, as in {next(iter(model.netlist.components), 'pad')}.NAME."
         faults.append(Fault(PLACE, f"{cases.name} has no numbers among its parameters", known))
-    if not cases.figures:
+    if not cases.figures and of is not None:
+        faults.append(Fault(FIGURES, "no figure is named", "Leave it out: then those of the netlist are taken."))
+    elif not cases.figures:
         faults.append(Fault(PLACE, f"{cases.name} records nothing by name", "Name a figure, such as peak(block.x)."))
     if faults:
         raise ModelError(faults)

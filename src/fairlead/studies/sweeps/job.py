@@ -24,6 +24,10 @@ class Job(Protocol):
         """Unit of each figure by its name."""
 
     @property
+    def about(self) -> Mapping[str, tuple[str, str]]:
+        """Unit and description of the numbers that may be varied, by name; "" for what is not known."""
+
+    @property
     def limited(self) -> bool:
         """Whether there are limits that a case may break."""
 

@@ -18,6 +18,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from fairlead.cases.figures import Function
+from fairlead.cases.separators import separated_otherwise
 from fairlead.errors import Fault, Location, ModelError, UsageError, listing, shown
 from fairlead.netlist.netlist import Value
 from fairlead.netlist.settings import Count, Strict
@@ -210,6 +211,9 @@ class Asked:
             return
         with file.open(encoding="utf-8-sig", errors="replace", newline="") as stream:
             lines = [[cell.strip() for cell in row] for row in csv.reader(stream)]
+        if other := separated_otherwise(lines[0] if lines else ()):
+            self.faults.append(Fault(Location(str(file), 1, 1), *other))
+            return
         names = lines[0] if lines else []
         if not any(any(row) for row in lines[1:]) or not all(names) or len(set(names)) < len(names):
             what = "a file of cases has different names in its first line, and a case in each further one"
@@ -222,7 +226,8 @@ class Asked:
                 what = (
                     f"this line has {sum(map(bool, row))} values, the first one names {len(names)} ({listing(names)})"
                 )
-                self.faults.append(Fault(Location(str(file), number, 1), what))
+                comma = "A comma separates values, so numbers have a point." if len(row) > len(names) else ""
+                self.faults.append(Fault(Location(str(file), number, 1), what, comma))
             else:
                 self.listed.append(dict(zip(names, row, strict=True)))
 

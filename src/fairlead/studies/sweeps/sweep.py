@@ -161,7 +161,8 @@ def heading_of(job: Job, design: Design) -> Heading:
             "seed": one.seed,
             "laws": laws,
         }
-    return Heading(job.name, job.scene, design.count, tuple(design.names), texts_among(seen), job.units, told)
+    about = {name: job.about[name] for name in design.names if name in job.about}
+    return Heading(job.name, job.scene, design.count, tuple(design.names), texts_among(seen), job.units, told, about)
 
 
 def _missing(job: Job, design: Design, known: set[str], twins: list[tuple[int, str]],

@@ -57,6 +57,8 @@ class Heading:
     units: Mapping[str, str]
     """Of the figures."""
     design: Mapping[str, Any] = field(default_factory=dict)
+    about: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    """Unit and description of parameters, where they are known."""
 
     def refuse(self) -> None:
         """Raise UsageError for two columns of one name."""
