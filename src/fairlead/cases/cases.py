@@ -141,26 +141,28 @@ class Cases:
 
     def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)
-        first, *more = self._records(model, also)
-        result = self._result(model, first)
-        run = result.run
-        counters = {name: int(run[name]) for name in COUNTED}
-        status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
-        if result.status == "interrupted":
-            raise KeyboardInterrupt
-        row = replace(start, status=status, sentence=str(run["sentence"]), counters=counters,
-                      broken=tuple(run["limits_broken"]), loop=float(run["solve_time"]))  # fmt: skip
-        if not result.ok:
-            return row
-        if take is not None:
-            take(result)
-        found = {one.name: value_of(one, result) for one in first.figures}
-        for record in more:
+        row, found = start, dict[str, float]()
+        for record in self._records(model, also):
             result = self._result(model, record)
             if result.status == "interrupted":
                 raise KeyboardInterrupt
+            row = self._ended(start, result, row.loop)
+            if not result.ok:
+                return row
+            if take is not None:
+                take(result)
+                take = None
             found |= {one.name: value_of(one, result) for one in record.figures}
         return replace(row, figures={one.name: found[one.name] for one in self.figures})
+
+    @staticmethod
+    def _ended(start: Row, result: Result, before: float) -> Row:
+        """How a run ended; `before` it the engine was busy so long [s]."""
+        run = result.run
+        status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
+        return replace(start, status=status, sentence=str(run["sentence"]), broken=tuple(run["limits_broken"]),
+                       counters={name: int(run[name]) for name in COUNTED},
+                       loop=before + float(run["solve_time"]))  # fmt: skip
 
     def _model(self, values: Mapping[str, Value]) -> Model:
         """The model of these values, on a structure that is compiled already where there is one that fits."""
