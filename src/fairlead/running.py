@@ -62,12 +62,12 @@ if TYPE_CHECKING:
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path | None, *, force: bool,
         progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float,
-        peaks: bool = True, told: bool = True) -> Result:  # fmt: skip
+        peaks: bool = True, told: bool = True, kept: Sequence[str] | None = None) -> Result:  # fmt: skip
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError.
 
     They go to the directory `path`, or stay in memory when that is None. Without `peaks` extremes and limits are not
     looked for, and on a grid nothing between its rows; without `told` there are no remarks: both cost as much as the
-    loop of a small model.
+    loop of a small model. Of signals that fit no pattern in `kept` the extremes are known and no row; None keeps all.
     """
     faults = unreasonable(netlist, settings, system.flat)
     if faults := faults + interface_faults(netlist, system.flat.assembly.entries, system):
@@ -76,17 +76,20 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         require_package()
     if (fault := refused(settings, system) or not_allowed(system)) is not None:
         raise UsageError(f"{fault.what} {fault.way_out}")
-    patterns = _patterns(netlist)
+    patterns = patterns_of(netlist)
     recording = system.recording(patterns)
     names = {signal.name: None for signal in recording.chosen}
     if not all(picked(names, text) for text in patterns) and (faults := unknown_signals(system.flat.assembly)):
         raise ModelError(faults)
+    wanted = names if kept is None else {name for one in kept for name in picked(names, one)}
+    columns = [k for k, name in enumerate(names) if name in wanted]
     limits = read_limits(without_gone(system.flat.assembly, netlist.limits), recording.recorded)
     creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
     header = {**_header(netlist, settings, system, told=told), "limits": limits.plain()}
-    with Interruption() as interruption, _sink(path, _signals(recording.chosen), header, force=force) as sink:
-        least = least_jumps(system, recording.chosen, settings.accuracy)
+    shown = [recording.chosen[k] for k in columns]
+    with Interruption() as interruption, _sink(path, _signals(shown), header, force=force) as sink:
+        least = least_jumps(system, shown, settings.accuracy)
         event_rows = EventRows(least) if netlist.record.every is not None else None
         strains = Strains.of(system, recording.recorded)
         asked = engine_settings(netlist, settings, system, patterns, between=peaks or bool(strains.names))
@@ -99,7 +102,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       NeverClosed.of(system, recording.recorded if told else [], asked.start),
                       together, GaveWay(system, asked.start), WentRound(system), progress, interruption, event_rows,
                       settings.accuracy,
-                      peaks)  # fmt: skip
+                      peaks, None if kept is None else columns)  # fmt: skip
         outcome = integrate(system, asked, watch)
         for controller in outcome.problem.controllers:
             controller.end()
@@ -173,10 +176,10 @@ def open_at(problem: Any, status: Status, culprits: Sequence[str], t: float) -> 
 
 def chosen_signals(netlist: Netlist, system: System) -> list[OutputSignal]:
     """What a run records of what the netlist asks for."""
-    return system.recording(_patterns(netlist)).chosen
+    return system.recording(patterns_of(netlist)).chosen
 
 
-def _patterns(netlist: Netlist) -> list[str]:
+def patterns_of(netlist: Netlist) -> list[str]:
     """What to record: what is asked for, and what plots and limits need."""
     plotted = [pattern for plot in netlist.record.plots for pattern in (*plot.signals, plot.along) if pattern]
     return [*netlist.record.signals, *plotted, *netlist.limits]

@@ -64,6 +64,9 @@ class Watch:
     accuracy: float
     peaks: bool = True
     """Whether extremes are looked for."""
+    columns: list[int] | None = None
+    """Of the signals asked for, those of which rows are written, with all that the curves of steps go through; None:
+    all, less the rows that others tell."""
     steps: WholeSteps = field(init=False)
     batches: Batches = field(init=False)
     begun: bool = field(init=False)
@@ -77,16 +80,12 @@ class Watch:
         """Find the columns."""
         self.steps, self.batches, self.begun = WholeSteps(), Batches(len(self.recording.recorded)), False
         self.extremes = Extremes(len(self.recording.recorded))
-        self.thinning, self.changes = Thinning(self.accuracy, self.chosen), ZoneChanges(self.system)
+        self.thinning = Thinning(self.accuracy, len(self.recording.chosen))
+        self.changes = ZoneChanges(self.system)
         columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
         self.creeping = np.array([columns[name] for name in self.creep.names], dtype=np.int64)
         if "energy.supplied" in columns:
             self.metered = np.array([columns["energy.dissipated"], columns["energy.supplied"], -1])
-
-    @property
-    def chosen(self) -> int:
-        """How many of the recorded signals were asked for: the first ones."""
-        return len(self.recording.chosen)
 
     def __call__(self, block: Block) -> End | None:
         """Take one block, up to where its rows mean something, which ends the run.
@@ -105,7 +104,8 @@ class Watch:
         if self.peaks:
             for batch in self.batches.take(rows):
                 self.extremes.watch(batch)
-        whole = self.steps.take(rows._replace(values=rows.values[:, : self.chosen]))
+        asked = slice(len(self.recording.chosen)) if self.columns is None else self.columns
+        whole = self.steps.take(rows._replace(values=rows.values[:, asked]))
         if whole is not None:
             self._take_steps(whole)
         self.sink.events(self.changes.of(block.events))
@@ -125,7 +125,9 @@ class Watch:
             self.progress(block.fraction, block.reached, None)
 
     def _take_steps(self, rows: Rows) -> None:
-        if self.event_rows is None:
+        if self.event_rows is None and self.columns is not None:
+            self._write(rows.where(slice(int(self.begun), None)))
+        elif self.event_rows is None:
             self._write(self.thinning.take(rows, first=not self.begun))
         else:
             self._write(self.event_rows.take(on_grid(rows.where(slice(int(self.begun), None)))))
@@ -151,8 +153,10 @@ class Watch:
         if self.event_rows is None:
             return {"kept": 0, "most": {}}
         counts = self.event_rows.jumps
-        most = [k for k in np.argsort(-counts, kind="stable")[:MOST_JUMPS_TOLD].tolist() if counts[k]]
-        return {"kept": self.event_rows.kept, "most": {self.recording.recorded[k].name: int(counts[k]) for k in most}}
+        first = [k for k in np.argsort(-counts, kind="stable")[:MOST_JUMPS_TOLD].tolist() if counts[k]]
+        columns = range(len(counts)) if self.columns is None else self.columns
+        most = {self.recording.recorded[columns[k]].name: int(counts[k]) for k in first}
+        return {"kept": self.event_rows.kept, "most": most}
 
 
 def up_to(block: Block, row: int) -> Block:

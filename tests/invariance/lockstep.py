@@ -17,7 +17,7 @@ import fairlead
 from fairlead.engine import engine_settings
 from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Underway
-from fairlead.running import _patterns
+from fairlead.running import patterns_of
 from tests.invariance.plays import Play
 from tests.invariance.reordering import permuted, shuffled
 
@@ -59,7 +59,7 @@ class Try(NamedTuple):
 def tries(model: Any) -> Iterator[Try]:
     """Every trial step of a run of the model."""
     netlist, system = model.netlist, model.system
-    run = engine_settings(netlist, netlist.run, system, _patterns(netlist))
+    run = engine_settings(netlist, netlist.run, system, patterns_of(netlist))
     going = Underway(system, run, lambda _: None)
     before = dict.fromkeys((*CAUSES, "steps", "settling_passes", "located", "time_events"), 0)
     while going.served:

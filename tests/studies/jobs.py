@@ -85,5 +85,5 @@ def _number(value):
         return value
 
 
-def job(function, figure="y"):
-    return FunctionJob(function.__name__, function, {figure: "1"})
+def job(function, *figures):
+    return FunctionJob(function.__name__, function, dict.fromkeys(figures or ("y",), "1"))

@@ -178,6 +178,79 @@ def test_figures_without_extremes_cost_no_rows_between_those_of_the_grid(monkeyp
     assert few <= 3 + 2 * alone.figures["n"] < sum(rows) / 4
 
 
+def many_swings(count: int) -> str:
+    """Equal bodies of 1 kg on springs of 100 N/m, from 1 m/s on: x = 0.1 m sin(10 t); four rows in a period."""
+    parts = "".join(f"""
+      s{k}: {{type: Spring, stiffness: 100 N/m}}
+      b{k}: {{type: Mass, mass: 1 kg, velocity: 1 m/s}}""" for k in range(count))
+    wires = "".join(f"\n      - [g.flange, s{k}.a]\n      - [s{k}.b, b{k}.flange]" for k in range(count))
+    return f"""
+    components:
+      g: {{type: Ground}}{parts}
+    connections:{wires}
+    run: {{stop: 2 s, accuracy: 1e-6}}
+    record: {{signals: [b0.x], every: 160 ms}}
+    """
+
+
+OF_A_SWING = {"at": "at(b0.x, 1.37 s)", "mean": "mean(b0.x, 0 s, 1.7 s)", "rms": "rms(b0.x, 0 s, 1.7 s)",
+              "low": "lowest(s0.tension)", "high": "peak(b0.x)", "end": "end(b0.x)"}  # fmt: skip
+
+
+def closed_forms() -> dict[str, float]:
+    square = 0.5 - math.sin(2 * 17.0) / (4 * 17.0)
+    return {"at": 0.1 * math.sin(13.7), "mean": 0.1 * (1 - math.cos(17.0)) / 17.0, "rms": 0.1 * math.sqrt(square),
+            "low": -10.0, "high": 0.1, "end": 0.1 * math.sin(20.0)}  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ["rodas", "stepping"])
+@pytest.mark.parametrize(("beside", "count"), [
+    ({}, 1), ({"own": lambda result: float(len(result.t))}, 1), ({"own": "peak(b*.x)"}, 33), ({"own": "broken()"}, 1),
+])  # fmt: skip
+def test_the_accuracy_of_a_figure_does_not_depend_on_which_others_are_asked_for(scene, engine, beside, count) -> None:
+    model = scene(many_swings(count), **{"run.engine": engine})
+    row = Cases(model, {**beside, **OF_A_SWING}).row({})
+    assert list(row.figures) == [*beside, *OF_A_SWING], row.sentence
+    exact = closed_forms()
+    for name, value in exact.items():
+        assert row.figures[name] == pytest.approx(value, abs=2e-5 * (10.0 if name == "low" else 0.1)), name
+
+
+def test_a_function_beside_them_sees_the_rows_that_the_netlist_asks_for(scene) -> None:
+    """From 0 s to 1.92 s every 160 ms, and the end; of b0.x alone."""
+    seen: list[tuple[int, list[str]]] = []
+    figures = {"own": lambda result: seen.append((len(result.t), list(result))) or 0.0, "mean": "mean(s1.tension)"}
+    assert Cases(scene(many_swings(2)), figures).row({}).ok
+    assert seen == [(14, ["b0.x"])]
+
+
+def test_of_signals_of_which_the_extremes_are_wanted_no_rows_are_kept(scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[list[str]] = []
+    own = run._sink
+    monkeypatch.setattr(run, "_sink", lambda path, signals, *rest, **more: (
+        kept.append([one.name for one in signals]), own(path, signals, *rest, **more))[1])  # fmt: skip
+    row = Cases(scene(many_swings(3)), {"peak": "peak(b*.x)", "rms": "rms(b1.v)"}).row({})
+    assert row.figures["peak"] == pytest.approx(0.1, abs=1e-6)
+    assert kept == [["b1.v"]]
+
+
+def test_curves_are_told_beside_figures() -> None:
+    """They ended with an error: what the figures need was not recorded."""
+    let_go = LET_GO / SPEED
+    row, curves = Cases(MODEL, {"peak": "peak(block.v)"}).curves({}, ["block.x"], np.array([0.3 * let_go]))
+    assert row.ok, row.sentence
+    assert row.figures["peak"] == pytest.approx(SPEED, abs=1e-6)
+    assert curves[0, 0] == pytest.approx(0.3 * LET_GO, abs=1e-8)
+
+
+def test_a_peak_close_to_the_end_of_a_step_is_found(scene) -> None:
+    """The peak 0.1 m passes through the steps as the stiffness changes; that of an end is 1e-6 off."""
+    cases = Cases(scene(many_swings(1)), {"peak": "peak(b0.x)"})
+    found = np.array([cases.row({"s0.stiffness": k, "run.stop": 0.3}).figures["peak"] * math.sqrt(k)
+                      for k in np.linspace(90.0, 110.0, 60)])  # fmt: skip
+    assert np.abs(found - 1.0).max() < 2e-8
+
+
 @pytest.mark.parametrize("model", ["unwinder", "arm_with_cylinder"])
 def test_an_engine_that_does_not_run_a_model_refuses_the_case(model: str) -> None:
     """It had the status of a mistake in fairlead or in a figure, `error`."""

@@ -13,6 +13,7 @@ from fairlead.studies.differences.steps import difference, noise_floor, steps
 from fairlead.studies.fits.features import read_feature
 from fairlead.studies.fits.fit_file import read_fit
 from fairlead.studies.fits.problem import records_of
+from fairlead.studies.fits.report import lines_of, record_of
 from fairlead.studies.fits.search import fit, prepared
 
 STIFFNESS, MASS, FRICTION, BEGIN = 400.0, 2.0, 1.2, 0.1
@@ -188,6 +189,60 @@ def test_a_robust_loss_lets_go_of_outliers(tmp_path) -> None:
     assert found["cauchy"].values["k"] == pytest.approx(STIFFNESS, rel=1e-4)
     assert found["cauchy"].values["mu"] == pytest.approx(FRICTION / 10, rel=1e-3)
     assert found["linear"].values["mu"] < 0.99 * FRICTION / 10  # the closed form with scipy says 0.1184
+
+
+def test_without_noise_a_robust_loss_takes_the_noise_that_is_left(tmp_path) -> None:
+    """Else it would count outliers of 3 cm in the spread of the signal, 5 cm, and follow them as least squares do."""
+    file = write(tmp_path, f"{HEAD}{FREQUENCY}{DRY}loss: {{by: time, kind: cauchy}}\nstarts: 1\n", noise=1e-3)
+    head, *rows = (tmp_path / "coast.csv").read_text().splitlines()
+    for k in range(2, len(rows), 8):
+        t, x = rows[k].split(",")
+        rows[k] = f"{t},{float(x) + 0.03!r}"
+    (tmp_path / "coast.csv").write_text("\n".join([head, *rows]))
+    found = fitted(file)
+    assert found.problem.targets[0].left["block.x"] == pytest.approx(1e-3, rel=0.3)
+    for name, true in (("k", STIFFNESS), ("mu", FRICTION / 10)):
+        one = found.intervals[name]
+        assert one.low < true < one.high
+        assert one.high - one.low < 0.03 * true
+    assert found.starts[-1].loss == min(one.loss for one in found.starts)
+
+
+def features_of(tmp_path, start, stop=None, features="{p: period(block.x), l: lowest(block.x)}"):
+    text = f"{HEAD}  k: {{start: {start}, low: 1, high: 1000, log: true}}\n{DRY}features: {features}\nstarts: 1\n"
+    file = write(tmp_path, text)
+    if stop is not None:
+        rows = (tmp_path / "coast.csv").read_text().splitlines()
+        kept = [rows[0], *(row for row in rows[1:] if float(row.split(",")[0]) < stop)]
+        (tmp_path / "coast.csv").write_text("\n".join(kept))
+    asked = read_fit(file)
+    _, targets, chaotic = prepared(asked)
+    found = fit(asked, targets)
+    told = record_of(asked, found, targets, {"one": None}, chaotic, {"one": {"block.x": "m"}})
+    return found, "\n".join(lines_of(told))
+
+
+def test_a_feature_without_a_value_in_the_model_is_named(tmp_path) -> None:
+    """A spring of 40 N/m swings in 1.4 s, the record lasts 2 s. The data were said not to tell k and mu apart."""
+    found, said = features_of(tmp_path, "40 N/m")
+    assert "No value in the model, at these values of the parameters: period(block.x) of one." in found.remarks[0]
+    assert found.remarks[0] in said
+    assert "apart" not in said
+    assert "not told by the data" not in said
+
+
+def test_as_many_features_as_parameters_leave_no_interval_and_that_is_said(tmp_path) -> None:
+    found, said = features_of(tmp_path, "380 N/m")
+    assert found.values["k"] == pytest.approx(STIFFNESS, rel=1e-3)
+    assert "The data are 2 numbers for 2 parameters" in said
+    assert "k = 4" in said
+    assert "no interval" in said
+    assert "The data do not tell" not in said
+
+
+def test_a_feature_that_no_record_has_is_a_mistake(tmp_path) -> None:
+    with pytest.raises(ModelError, match=r"p = period\(block.x\) has no value in any record"):
+        features_of(tmp_path, "380 N/m", stop=0.3)
 
 
 DRIVEN = """schema: 1

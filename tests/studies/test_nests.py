@@ -12,7 +12,7 @@ from fairlead.studies.fits.fit_file import Law, Sought, read_fit
 from fairlead.studies.fits.known import loss_sum
 from fairlead.studies.fits.laws import compare
 from fairlead.studies.fits.nests import Contained, places
-from fairlead.studies.fits.problem import Problem
+from fairlead.studies.fits.problem import FEATURES, Problem
 from fairlead.studies.fits.search import fit, foretelling
 from tests.studies.test_fits import DRY, FREQUENCY, HEAD, SCENE, write
 
@@ -38,7 +38,10 @@ def damped(folder: Path, text: str = DAMPED) -> fairlead.Model:
 class Wavy:
     """A stand-in of a record: residuals of a and b that have a second minimum near b = 2 pi, where the loss is 0.2."""
 
-    count, known_noise = 3, True
+    count, known_noise, by, left = 3, True, FEATURES, {}
+
+    def without(self, values):
+        return ()
 
     def residuals(self, values):
         a, b = values["a"], values.get("b", 0.0)
@@ -57,6 +60,15 @@ def test_a_search_begins_at_a_place_that_is_better_than_where_its_own_ended(tmp_
     assert [one.begun["b"] for one in found.starts] == pytest.approx([6.0, 0.0], abs=1e-4)
     foretold = foretelling(asked, [Wavy()], large, alone, also)
     assert foretold == pytest.approx({"a": 2.0, "b": 0.0}, abs=1e-4)
+
+
+def test_a_record_is_not_foretold_from_another_minimum_than_the_full_fit_shows(tmp_path) -> None:
+    """Its start leads to b = 2 pi, where the loss is 0.2; the law was then judged by a failure of the search."""
+    asked = read_fit(write(tmp_path, f"{HEAD}  a: {{start: 1, low: 0, high: 5}}\nstarts: 1\nloss: {{by: time}}\n"))
+    law, near = Law("large", sought=(sought("b", 6, 0, 9),)), Law("large", sought=(sought("b", 1, 0, 9),))
+    whole = fit(asked, [Wavy()], near)
+    assert whole.values["b"] == pytest.approx(0.0, abs=0.05)
+    assert foretelling(asked, [Wavy()], law, whole) == pytest.approx({"a": 2.0, "b": 0.0}, abs=0.05)
 
 
 @pytest.mark.slow

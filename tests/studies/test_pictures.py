@@ -4,8 +4,10 @@ import math
 
 import pytest
 from matplotlib.figure import Figure
+from typer.testing import CliRunner
 
 from fairlead.cases import Cases
+from fairlead.cli import app
 from fairlead.errors import UsageError
 from fairlead.studies.sweeps.design import Design, Sample
 from fairlead.studies.sweeps.distributions import read_distribution
@@ -47,9 +49,9 @@ def test_morris_tells_a_straight_line_exactly(tmp_path) -> None:
     sample = Sample("morris", 6, over)
     sweep(job(line, "z"), Design(sample=sample), tmp_path, processes=0)
     x, y = morris_indices(Rows.read(tmp_path), "z")
-    # The elementary effect of 3 x over a range of 2 is 6, of -y over 5 it is 5; 0.99 of the ranges are used.
-    assert x.total == pytest.approx(0.99 * 6, rel=1e-9)
-    assert y.total == pytest.approx(0.99 * 5, rel=1e-9)
+    # The elementary effect of 3 x over a range of 2 is 6, of -y over 5 it is 5, though points keep off its ends.
+    assert x.total == pytest.approx(6, rel=1e-9)
+    assert y.total == pytest.approx(5, rel=1e-9)
     assert x.first == pytest.approx(0, abs=1e-9)
 
 
@@ -68,9 +70,9 @@ def test_a_tornado_averages_over_the_others(tmp_path) -> None:
 @pytest.mark.slow
 def test_pictures_are_those_that_fit_the_design(tmp_path) -> None:
     sweep(job(line, "z"), Design(grid={"x": ["0", "1"], "y": ["0", "10"]}), tmp_path / "grid", processes=0)
-    drawn = draw(Rows.read(tmp_path / "grid"), "z", tmp_path / "figures")
+    drawn, _ = draw(Rows.read(tmp_path / "grid"), "z", tmp_path / "figures")
     assert [file.stem for file in drawn] == ["response", "heat_map", "tornado", "failures"]
-    drawn = draw(swept(tmp_path / "sample", "saltelli", 8), "f", tmp_path / "others")
+    drawn, _ = draw(swept(tmp_path / "sample", "saltelli", 8), "f", tmp_path / "others")
     assert [file.stem for file in drawn] == ["scatter", "tornado", "failures", "indices"]
     assert all(file.stat().st_size > 5000 for file in drawn)
 
@@ -96,6 +98,62 @@ def test_the_legend_of_a_picture_stands_beside_its_data(tmp_path) -> None:
         FigureCanvasAgg(made).draw()
         legends = [*made.legends, *(ax.get_legend() for ax in made.axes if ax.get_legend())]
         assert not any(one.get_window_extent().overlaps(ax.bbox) for one in legends for ax in made.axes), name
+
+
+def never(values):
+    """A figure of events that never come, and one of events that come for some."""
+    return {"never": math.nan, "late": values["x"] if values["x"] > 1 else math.nan, "z": values["x"]}
+
+
+def test_a_figure_without_a_value_is_a_sentence(tmp_path) -> None:
+    """It was a traceback of the tornado."""
+    grid = {"x": ["1", "2", "3"], "y": ["0", "10"]}
+    sweep(job(never, "never", "late", "z"), Design(grid=grid), tmp_path, processes=0)
+    rows = Rows.read(tmp_path)
+    with pytest.raises(UsageError, match=r"never has no value in any case(?s:.*)Figures with values: late, z"):
+        rows.figure("never")
+    assert rows.figure("") == "late"
+    written, reasons = draw(rows, "late", tmp_path / "figures")
+    assert [file.stem for file in written] == ["response", "heat_map", "tornado", "failures"]
+    assert not reasons
+
+
+def fails_above(values):
+    if values["a"] > 2:
+        raise ValueError("too far")
+    return ishigami(values)
+
+
+def test_pictures_are_named_beside_a_reason_why_one_cannot_be_drawn(tmp_path) -> None:
+    """They were written and not named: the command ended with the reason alone."""
+    sample = Sample("saltelli", 8, dict.fromkeys("abc", LAW), seed=1)
+    sweep(job(fails_above, "f"), Design(sample=sample), tmp_path / "sweep", processes=0)
+    outcome = CliRunner().invoke(app, ["plot", str(tmp_path / "sweep"), "--out", str(tmp_path / "drawn")])
+    assert outcome.exit_code == 0, outcome.output
+    assert "Indices need every case" in outcome.output
+    for name in ("scatter", "tornado", "failures"):
+        assert f"{name}.png" in outcome.stdout
+
+
+def of_a_word(values):
+    return {"z": float(len(values["word"]))}
+
+
+def test_of_words_the_ends_of_cases_are_drawn_and_of_one_case_nothing(tmp_path) -> None:
+    """Both wrote nothing and said nothing."""
+    sweep(job(of_a_word, "z"), Design(grid={"word": ["hold", "tanh"]}), tmp_path / "words", processes=0)
+    written, _ = draw(Rows.read(tmp_path / "words"), "z", tmp_path / "figures")
+    assert [file.stem for file in written] == ["failures"]
+    sweep(job(of_a_word, "z"), Design(grid={"word": ["hold"]}), tmp_path / "one", processes=0)
+    with pytest.raises(UsageError, match="All cases have the same values"):
+        draw(Rows.read(tmp_path / "one"), "z", tmp_path / "none")
+
+
+def test_cases_that_stand_twice_in_a_design_were_not_there_before(tmp_path) -> None:
+    _, standing = sweep(job(square), Design(grid={"x": ["1", "2", "1"]}), tmp_path, processes=0)
+    assert (standing.reused, standing.twice) == (1, 1)
+    _, standing = sweep(job(square), Design(grid={"x": ["1", "2", "1"]}), tmp_path, processes=0)
+    assert (standing.reused, standing.twice) == (3, 0)
 
 
 PUSHED = """

@@ -5,7 +5,7 @@ import pytest
 
 import fairlead.analysis.record.extremes as extremes_module
 from fairlead.analysis.record.event_rows import Rows
-from fairlead.analysis.record.extremes import Extremes
+from fairlead.analysis.record.extremes import Extremes, peak_of_curves
 from fairlead.analysis.record.step_rows import INSIDE, LEAST_ROWS, MOST_ROWS, MOST_VALUES, Batches
 from fairlead.results.plateau import first_row
 
@@ -59,9 +59,9 @@ def test_only_the_stretches_near_to_the_best_so_far_are_looked_up(monkeypatch):
     """A hundred signals rest; one was at 0 and rises, so that each stretch of it is above all before."""
     looked = []
 
-    def counted(values, column, sign, stretch, near):
+    def counted(values, column, sign, stretch, length, near):
         looked.append(len(stretch))
-        return first_best(values, column, sign, stretch, near)
+        return first_best(values, column, sign, stretch, length, near)
 
     first_best = extremes_module._first_best
     monkeypatch.setattr(extremes_module, "_first_best", counted)
@@ -73,6 +73,29 @@ def test_only_the_stretches_near_to_the_best_so_far_are_looked_up(monkeypatch):
         extremes.watch(Rows(np.linspace(0.0, 1.0, rows), values, np.zeros(rows, dtype=np.int8)))
     assert looked[1] == 10
     assert (extremes.highest[100], extremes.t_highest[100], extremes.lowest[100]) == (2.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("nodes", [3, 5])
+def test_a_top_anywhere_in_a_step_is_found_to_rounding(nodes):
+    """1 - (s - p)^2 + 0.3 (s - p)^3 has its top 1 at s = p, close to either end as well; three rows know no cube."""
+    place = np.concatenate([np.linspace(0.0, 1.0, 101), [1e-3, 1e-5, 1 - 1e-3, 1 - 1e-5]])[:, None]
+    away = np.linspace(0.0, 1.0, nodes) - place
+    value, share = peak_of_curves(1.0 - away**2 + (0.3 * away**3 if nodes == 5 else 0.0))
+    np.testing.assert_allclose(value, 1.0, atol=1e-14)
+    np.testing.assert_allclose(share, place[:, 0], atol=1e-6)
+
+
+def test_of_two_peaks_close_to_each_other_the_higher_one_is_found():
+    """cos(2 pi t/5) + 0.002 t, steps of 1 s: rows may lie at the lower top and beside the higher one."""
+    t = np.linspace(0.0, 9.0, 37)
+    phase = 2 * np.pi / 5
+    for begin in np.linspace(0.0, 5.0, 41):
+        fine = np.linspace(0.0, 9.0, 90001)
+        values, exact = (np.cos(phase * (s + begin)) + 0.002 * s for s in (t, fine))
+        extremes = Extremes(1)
+        side = np.where(np.arange(len(t)) % 4, INSIDE, 0).astype(np.int8)
+        extremes.watch(Rows(t, values[:, None], side))
+        assert extremes.highest[0] == pytest.approx(exact.max(), abs=2e-4)
 
 
 @pytest.mark.parametrize("sense", [1, -1])

@@ -10,8 +10,8 @@ import math
 import platform
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +25,7 @@ from fairlead.cases.values_of import value_of
 from fairlead.component.numbers import told_numbers
 from fairlead.errors import FairleadError, Location, ModelError, UsageError
 from fairlead.netlist.settings import RecordSettings
-from fairlead.running import run
+from fairlead.running import patterns_of, run
 
 if TYPE_CHECKING:
     from fairlead.model import Model
@@ -148,22 +148,31 @@ class Cases:
 
     def _run(self, start: Row, values: Mapping[str, Value], also: tuple[str, ...], take: Take | None) -> Row:
         model = self._model(values)
-        try:
-            result = self._result(model, also)
-        except UsageError as error:  # the engine that was asked for does not run such a model, or is not installed
-            return replace(start, status=REFUSED, sentence=_in_a_line(error))
+        row, found = start, dict[str, float]()
+        for record in self._records(model, also):
+            try:
+                result = self._result(model, record)
+            except UsageError as error:  # the engine that was asked for does not run such a model, or is not installed
+                return replace(start, status=REFUSED, sentence=_in_a_line(error))
+            if result.status == "interrupted":
+                raise KeyboardInterrupt
+            row = self._ended(start, result, row.loop)
+            if not result.ok:
+                return row
+            if take is not None:
+                take(result)
+                take = None
+            found |= {one.name: value_of(one, result) for one in record.figures}
+        return replace(row, figures={one.name: found[one.name] for one in self.figures})
+
+    @staticmethod
+    def _ended(start: Row, result: Result, before: float) -> Row:
+        """How a run ended; `before` it the engine was busy so long [s]."""
         run = result.run
-        counters = {name: int(run[name]) for name in COUNTED}
         status = FINISHED if result.ok else BUDGET if result.status == "budget" else FAILED
-        if result.status == "interrupted":
-            raise KeyboardInterrupt
-        row = replace(start, status=status, sentence=str(run["sentence"]), counters=counters,
-                      broken=tuple(run["limits_broken"]), loop=float(run["solve_time"]))  # fmt: skip
-        if not result.ok:
-            return row
-        if take is not None:
-            take(result)
-        return replace(row, figures={one.name: value_of(one, result) for one in self.figures})
+        return replace(start, status=status, sentence=str(run["sentence"]), broken=tuple(run["limits_broken"]),
+                       counters={name: int(run[name]) for name in COUNTED},
+                       loop=before + float(run["solve_time"]))  # fmt: skip
 
     def _model(self, values: Mapping[str, Value]) -> Model:
         """The model of these values, on a structure that is compiled already where there is one that fits."""
@@ -183,29 +192,59 @@ class Cases:
         with told_of(PLACE.file, "Model.beside"):
             return self.model.beside(values, near)
 
-    def _result(self, model: Model, also: tuple[str, ...] = ()) -> Result:
-        record = RecordSettings.model_construct(signals=list(also), every=None, plots=[]) if also else None
-        netlist = replace(model.netlist, record=record or self._record(model))
+    def _result(self, model: Model, record: _Record) -> Result:
+        netlist = replace(model.netlist, record=record.settings)
         settings = netlist.run
         if self.max_steps is not None:
             settings = settings.model_copy(update={"max_steps": self.max_steps})
-        peaks = bool(netlist.limits) or any(one.wants_extremes for one in self.figures)
+        peaks = bool(netlist.limits) or any(one.wants_extremes for one in record.figures)
         return run(netlist, settings, model.system, None, force=False, progress=None, profile=False,
-                   begun=time.perf_counter(), peaks=peaks, told=False)  # fmt: skip
+                   begun=time.perf_counter(), peaks=peaks, told=False, kept=record.kept)  # fmt: skip
 
-    def _record(self, model: Model) -> RecordSettings:
-        """What the figures need, as often as they need it."""
+    def _records(self, model: Model, also: tuple[str, ...]) -> list[_Record]:
+        """What the figures need, as often as they need it; a run for each.
+
+        What is told from rows of all steps and what is told from those of the netlist come of two runs, for the rows of
+        one are too few for the other, or too many to keep. Nothing else depends on the rows.
+        """
         own, settings = model.netlist.record, model.netlist.run
-        signals = dict.fromkeys(pattern for figure in self.figures for pattern in figure.signals)
-        if any(figure.kind == "function" for figure in self.figures):
-            signals |= dict.fromkeys(own.signals)
-        if any(figure.wants_record for figure in self.figures):
-            every = own.every
-        elif any(figure.wants_steps for figure in self.figures) or model.netlist.limits:
-            every = None  # an extreme between two rows is known where the step has rows of its own
-        else:
-            every = settings.stop - settings.start
-        return RecordSettings.model_construct(signals=list(signals), every=every, plots=[])
+        as_written = [one for one in self.figures if one.wants_record]
+        others = [one for one in self.figures if not one.wants_record]
+        on_curves = [one for one in others if one.wants_curves]
+        two = bool(as_written and (on_curves or also))
+        made = []
+        if not as_written or two:
+            between = also or model.netlist.limits or any(one.wants_curves or one.wants_extremes for one in others)
+            every = None if between else settings.stop - settings.start
+            made.append(_Record.of(others, [*also, *_signals_of(one for one in others if one.wants_rows)], every))
+        if as_written:
+            kept = _signals_of(as_written)
+            if any(one.kind == "function" for one in as_written):
+                kept += patterns_of(model.netlist)
+            beside = [] if two else others
+            kept += _signals_of(one for one in beside if one.wants_rows)
+            made.append(_Record.of([*as_written, *beside], kept, own.every))
+        return made
+
+
+@dataclass(frozen=True)
+class _Record:
+    """What one run is to record: for which figures, and of which signals rows are kept."""
+
+    figures: tuple[Figure, ...]
+    kept: tuple[str, ...]
+    settings: RecordSettings
+
+    @classmethod
+    def of(cls, figures: Iterable[Figure], kept: Iterable[str], every: float | None) -> _Record:
+        """Rows of `kept`, `every` so often [s] or of all steps (None), and the extremes that the figures want."""
+        figures, kept = tuple(figures), tuple(dict.fromkeys(kept))
+        patterns = list(dict.fromkeys([*kept, *_signals_of(figures)]))
+        return cls(figures, kept, RecordSettings.model_construct(signals=patterns, every=every, plots=[]))
+
+
+def _signals_of(figures: Iterable[Figure]) -> list[str]:
+    return [pattern for one in figures for pattern in one.signals]
 
 
 def _refuse_no_map(called: str, values: object) -> None:

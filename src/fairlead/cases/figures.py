@@ -9,7 +9,8 @@
     margin(ruck)                 of lines: ruck, slack, side_wall, slip
     broken()                     how many limits of the netlist the run broke
 
-A figure may also be a Python function that takes the `Result` and returns a number. It sees what the netlist records.
+A figure may also be a Python function that takes the `Result` and returns a number. It sees what the netlist records,
+as often as the netlist says. How accurate a figure is does not depend on which others are asked for.
 """
 
 from __future__ import annotations
@@ -35,8 +36,6 @@ OF_ONE = ("end", "at", "mean", "rms")
 MARGINS = {"ruck": "1", "slack": "N", "side_wall": "1", "slip": "m"}
 LEDGER = {"supplied": "J", "dissipated": "J", "stored": "J", "closure": "1"}
 KINDS = (*OF_ONE, *OF_SEVERAL, "time", "period", "switches", "margin", "energy", "broken")
-FEW = 32
-"""Signals whose rows of all steps are kept for their extremes; of more, the run looks for extremes as it goes."""
 LAST = 0
 """Of a period: the last one of the run."""
 EXAMPLE = "Write it as in peak(block.x), mean(block.x, 1 s, 3 s) or time(pad, held)."
@@ -55,25 +54,28 @@ class Figure:
     arguments: tuple[Any, ...] = ()
     """What follows, in SI: times, a zone, the number of an event, a word."""
     unit: str = "1"
-    many: bool = False
-    """Whether it asks for the extremes of more than FEW signals."""
     function: Function | None = None
 
     @property
-    def wants_steps(self) -> bool:
-        """Whether it is told from the curves of all steps."""
-        return self.kind in ("at", "mean", "rms") or (self.kind in OF_SEVERAL and not self.many)
+    def wants_curves(self) -> bool:
+        """Whether it is told from rows of all steps, on the curves that go through them."""
+        return self.kind in ("at", "mean", "rms")
+
+    @property
+    def wants_rows(self) -> bool:
+        """Whether it is told from rows of its signals, and not from their extremes."""
+        return self.kind not in OF_SEVERAL
 
     @property
     def wants_extremes(self) -> bool:
         """Whether it is told from the extremes that the run looks for as it goes."""
         of_most = self.kind == "energy" and self.arguments == ("closure",)  # it goes by the most energy at any time
-        return self.wants_record or of_most
+        return self.kind in OF_SEVERAL or self.wants_record or of_most
 
     @property
     def wants_record(self) -> bool:
-        """Whether it is told from what the netlist records."""
-        return self.many or self.kind in ("margin", "function")
+        """Whether it is told from what the netlist records, as often as it says."""
+        return self.kind in ("margin", "function")
 
 
 def read_figures(wanted: Mapping[str, str | Function], model: Model) -> tuple[Figure, ...]:
@@ -159,8 +161,7 @@ class _Known:
         if outside := [t for t in times if not run.start <= t <= run.stop]:
             raise _Wrong(f"{outside[0]:g} s is not in the run, which goes from {run.start:g} s to {run.stop:g} s",
                          "Take another time, or another run.stop.")  # fmt: skip
-        return {"signals": (given[0],), "arguments": times, "unit": self.units[names[0]],
-                "many": kind in OF_SEVERAL and len(names) > FEW}  # fmt: skip
+        return {"signals": (given[0],), "arguments": times, "unit": self.units[names[0]]}
 
     def _time(self, kind: str, given: Sequence[str]) -> dict[str, Any]:
         if not 1 <= len(given) <= 3:

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.analysis.record.extremes import peak_of_curves
-from fairlead.analysis.record.step_rows import INSIDE, ORDINARY, curved_steps
 from fairlead.cases.figures import Figure
-from fairlead.patterns import matcher
+from fairlead.patterns import matcher, picked
 from fairlead.result import Result
-from fairlead.results.curves import INSIDE as INSIDE_A_STEP
+from fairlead.results.curves import INSIDE
 from fairlead.results.events import lasting
 
 POINTS = {1: 3, 2: 5}
@@ -31,7 +29,7 @@ def value_of(figure: Figure, result: Result) -> float:
 def mean_of(result: Result, name: str, span: tuple[float, ...], power: int = 1) -> float:
     """Mean over time of a signal to a power, along the curves of the steps; nothing goes across a switch."""
     begin, end = span or (float(result.t[0]), float(result.t[-1]))
-    edges = np.unique(np.clip(result.t, begin, end))
+    edges = np.unique(np.clip(result.t[result.side != INSIDE], begin, end))
     half = np.diff(edges) / 2
     nodes, weights = np.polynomial.legendre.leggauss(POINTS[power])
     times = edges[:-1, None] + half[:, None] * (1 + nodes)
@@ -39,18 +37,14 @@ def mean_of(result: Result, name: str, span: tuple[float, ...], power: int = 1) 
     return float((values**power @ weights * half).sum() / (end - begin))
 
 
-def extremes_of(result: Result, names: list[str]) -> tuple[float, float]:
-    """The lowest and the highest value of some signals, rows of all steps and the curves through them."""
-    values = result.columns(names)
-    lowest, highest = [float(np.nanmin(values))], [float(np.nanmax(values))]
-    side = np.where(result.side == INSIDE_A_STEP, INSIDE, ORDINARY).astype(np.int8)
-    for inside in (1, 3):
-        which = curved_steps(side, inside)
-        if len(which):
-            curves = np.moveaxis(values[which], 1, 2).reshape(-1, inside + 2)
-            highest.append(float(np.nanmax(peak_of_curves(curves)[0])))
-            lowest.append(-float(np.nanmax(peak_of_curves(-curves)[0])))
-    return min(lowest), max(highest)
+def extremes_of(result: Result, pattern: str) -> tuple[float, float]:
+    """The lowest and the highest value of the signals of a pattern, as the run found them; NaN where there is none.
+
+    No row of them need have been kept.
+    """
+    known: Mapping[str, Sequence[float]] = result.run["extremes"]
+    found = [known[name] for name in picked(known, pattern)]
+    return min((one[0] for one in found), default=math.nan), max((one[2] for one in found), default=math.nan)
 
 
 def _end(figure: Figure, result: Result) -> float:
@@ -70,13 +64,11 @@ def _rms(figure: Figure, result: Result) -> float:
 
 
 def _peak(figure: Figure, result: Result) -> float:
-    names = result.chosen(figure.signals)
-    return max(result.extremes(name).highest for name in names) if figure.many else extremes_of(result, names)[1]
+    return extremes_of(result, figure.signals[0])[1]
 
 
 def _lowest(figure: Figure, result: Result) -> float:
-    names = result.chosen(figure.signals)
-    return min(result.extremes(name).lowest for name in names) if figure.many else extremes_of(result, names)[0]
+    return extremes_of(result, figure.signals[0])[0]
 
 
 def _largest(figure: Figure, result: Result) -> float:

@@ -136,7 +136,10 @@ def _of_sweep(place: pathlib.Path, figure: str, what: What | None, out: pathlib.
     rows = Rows.read(place)
     chosen = rows.figure(figure)
     folder = place if place.is_dir() else place.parent
-    return draw(rows, chosen, out or folder / "figures" / folder_name(chosen))
+    written, reasons = draw(rows, chosen, out or folder / "figures" / folder_name(chosen))
+    for reason in reasons:
+        echo(reason, err=True)
+    return written
 
 
 def _result(source: str, settings: list[str], libraries: list[str]) -> tuple["Result", pathlib.Path]:

@@ -245,7 +245,8 @@ def _record(
     likely = breach(frame) if shares else None
     return {
         "cases": {str(name): int(count) for name, count in frame["status"].value_counts().items()},
-        "reused": standing.reused, "computed": standing.done, "seconds": round(standing.seconds, 3),
+        "reused": standing.reused, "twice": standing.twice, "computed": standing.done,
+        "seconds": round(standing.seconds, 3),
         "table": str(folder / FILE), "kept": [str(one) for one in kept],
         "reasons": [{"status": s, "sentence": t, "cases": int(n)} for (s, t), n in sentences.items()],
         "broken": int((frame["limits_broken"] > 0).sum()) if limited else None,
@@ -262,7 +263,9 @@ def _print(record: dict[str, Any], standing: "Standing", *, as_json: bool, quiet
 
 def _print_sentences(record: dict[str, Any], standing: "Standing") -> None:
     counts = ", ".join(f"{count} {name}" for name, count in record["cases"].items())
-    reused = f", {record['reused']} were there already" if record["reused"] else ""
+    there, twice = record["reused"] - record["twice"], record["twice"]
+    reused = f", {there} were there already" if there else ""
+    reused += f", {twice} stand twice in the design" if twice else ""
     took = f"{_duration(standing.seconds)} ({standing.rate:.3g} cases per second)" if standing.done else "no time"
     echo(f"{counts}; {record['computed']} computed in {took}{reused}")
     for one in record["reasons"]:

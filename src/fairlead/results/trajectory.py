@@ -231,7 +231,8 @@ class Result:
         before it (`left`), after it (`right`) or both, as a last axis of length 2.
 
         What changes and changes back within a step is not seen, as friction over a small range of speeds that a heavy
-        body passes at once: give `run.max_step`.
+        body passes at once; nor is a curved signal within the accuracy that no unknown feels, as the force of a drag on
+        a given motion while something else moves too: give `run.max_step`.
 
         Raises FairleadError for a time that the run did not reach.
         """

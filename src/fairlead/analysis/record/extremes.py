@@ -23,8 +23,12 @@ from fairlead.results.curves import basis
 from fairlead.results.plateau import tolerance
 
 POINTS = np.linspace(0.0, 1.0, 33)
-STRETCH = 64
-"""Rows of which the best one is searched round: a motion may have a peak in each."""
+TURNS = 2
+"""Of Newton's method: a parabola is within a few hundredths of the distance of POINTS, and each turn squares that."""
+STRETCH, SHORT = 64, 16
+"""Rows of which the best one is searched round, and the same of at most FEW signals: a motion may have a peak in each.
+Of two peaks in one stretch the higher may have its rows farther from its top."""
+FEW = 32
 MARGIN = 0.1
 """Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
 AGREE = 0.25
@@ -60,7 +64,8 @@ class Extremes:
             return
         steps = [which for inside in (1, 3) if len(which := curved_steps(rows.side, inside))]
         before = np.concatenate([self.highest, -self.lowest])
-        best, when = _highest(rows, rows.values[:, : self.signals], steps, before)
+        length = SHORT if self.signals <= FEW else STRETCH
+        best, when = _highest(rows, rows.values[:, : self.signals], steps, before, length)
         self.highest = np.maximum(self.highest, best[: self.signals])
         self.lowest = np.minimum(self.lowest, -best[self.signals :])
         later = best > self._timed + np.tile(tolerance(self.highest, self.lowest), 2)
@@ -75,15 +80,15 @@ class Extremes:
         return {name: row.tolist() for name, row in rows if np.isfinite(row).all()}
 
 
-def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) -> tuple[Floats, Floats]:
+def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, length: int) -> tuple[Floats, Floats]:
     """The highest value of each signal, and of its negative, in these rows, and when: where it is above `before`.
 
-    `values` is [rows, signals]. Every stretch of rows tells its highest value; where that comes near to the highest so
-    far, the row it is in is looked up and searched round. The negative of a signal is one more signal here, since a
-    call costs more than a column.
+    `values` is [rows, signals]. Every stretch of `length` rows tells its highest value; where that comes near to the
+    highest so far, the row it is in is looked up and searched round. The negative of a signal is one more signal here,
+    since a call costs more than a column.
     """
     signals = values.shape[1]
-    best = np.concatenate([_of_stretches(np.fmax, values), -_of_stretches(np.fmin, values)])
+    best = np.concatenate([_of_stretches(np.fmax, values, length), -_of_stretches(np.fmin, values, length)])
     best[np.isnan(best)] = -np.inf
     near = _tolerances(best, before)
     signal, stretch = np.nonzero(_near(best, before))
@@ -93,7 +98,7 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats) 
         """The places `of`: what they look at in these rows [of, rows]."""
         return np.asarray(sign[of, None] * values[at, column[of, None]])
 
-    row, value = _first_best(values, column, sign, stretch, near[signal])
+    row, value = _first_best(values, column, sign, stretch, length, near[signal])
     t = rows.t[row]
     first, last = np.searchsorted(rows.t, t, side="left"), np.searchsorted(rows.t, t, side="right") - 1
     for which in steps:
@@ -123,34 +128,34 @@ def _tolerances(best: Floats, before: Floats) -> Floats:
     return np.asarray(tolerance(top, -np.roll(top, len(top) // 2)))
 
 
-def _of_stretches(best_of: np.ufunc, values: Floats) -> Floats:
+def _of_stretches(best_of: np.ufunc, values: Floats, length: int) -> Floats:
     """[signals, stretches]: the best of each stretch of rows; NaN is none. Rows are read as they lie in memory."""
     rows, signals = values.shape
-    whole = rows - rows % STRETCH
-    found = best_of.reduce(values[:whole].reshape(-1, STRETCH, signals), axis=1)
+    whole = rows - rows % length
+    found = best_of.reduce(values[:whole].reshape(-1, length, signals), axis=1)
     if whole < rows:
         found = np.concatenate([found, best_of.reduce(values[whole:], axis=0)[None]])
     return np.asarray(found.T)
 
 
 def _first_best(
-    values: Floats, column: Integers, sign: Floats, stretch: Integers, near: Floats
+    values: Floats, column: Integers, sign: Floats, stretch: Integers, length: int, near: Floats
 ) -> tuple[Integers, Floats]:
     """Of places that look at a column in a stretch, with a sign: the first row at the highest value, and that value.
 
     The rows of a stretch are a slice of the values; to gather them one by one took twice as long.
     """
-    whole = len(values) // STRETCH
-    inside, rest = stretch < whole, values[whole * STRETCH :]
-    seen = np.full((len(stretch), STRETCH), np.nan)
-    stretches = values[: whole * STRETCH].reshape(whole, STRETCH, values.shape[1])
+    whole = len(values) // length
+    inside, rest = stretch < whole, values[whole * length :]
+    seen = np.full((len(stretch), length), np.nan)
+    stretches = values[: whole * length].reshape(whole, length, values.shape[1])
     seen[inside] = stretches[stretch[inside], :, column[inside]]
     seen[~inside, : len(rest)] = rest[:, column[~inside]].T
     seen *= sign[:, None]
     seen[np.isnan(seen)] = -np.inf
     highest = seen.max(axis=1)
     first = (seen >= (highest - near)[:, None]).argmax(axis=1)
-    return STRETCH * stretch + first, highest
+    return length * stretch + first, highest
 
 
 def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
@@ -227,6 +232,10 @@ def _jumps(v: Floats) -> NDArray[np.bool_]:
 
 
 def _top_of_curves(v: Floats) -> tuple[Floats, Floats]:
+    """The highest value of each curve and its place: near the best of POINTS, also of those at the ends.
+
+    From the top of the parabola through three of POINTS on, TURNS steps of Newton's method on the slope.
+    """
     at_points, powers = _evenly_spaced(v.shape[1])
     above = v - v[:, :1]  # its first value: what is constant stays what it is
     found = above @ at_points
@@ -234,16 +243,27 @@ def _top_of_curves(v: Floats) -> tuple[Floats, Floats]:
     middle = np.clip(place, 1, len(POINTS) - 2)
     k = np.arange(len(v))
     left, centre, right = found[k, middle - 1], found[k, middle], found[k, middle + 1]
-    bend = left - 2.0 * centre + right
-    with np.errstate(divide="ignore", invalid="ignore"):
-        shift = np.where(bend < 0.0, 0.5 * (left - right) / bend, 0.0)
-    shift = np.where(np.isfinite(shift), np.clip(shift, -1.0, 1.0), 0.0)
-    share = np.where(place == middle, POINTS[middle] + shift * POINTS[1], POINTS[place])
+    best, share = found[k, place], POINTS[place]
     coefficients = above @ powers
-    value = coefficients[:, -1]
-    for n in range(v.shape[1] - 2, -1, -1):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        guess = POINTS[middle] + POINTS[1] * 0.5 * (left - right) / (left - 2.0 * centre + right)
+        for _ in range(1 + TURNS):
+            value, slope, bend = _taylor(coefficients, guess)
+            inside = (np.abs(guess - POINTS[place]) <= POINTS[1]) & (guess >= 0.0) & (guess <= 1.0)
+            higher = inside & (value > best)
+            best, share = np.where(higher, value, best), np.where(higher, guess, share)
+            guess = guess - slope / bend
+    return best + v[:, 0], share
+
+
+def _taylor(coefficients: Floats, share: Floats) -> tuple[Floats, Floats, Floats]:
+    """Of polynomials [k, n], powers rising: value, first and second derivative at `share` [k]."""
+    value, slope, half_bend = (np.zeros(len(share)) for _ in range(3))
+    for n in range(coefficients.shape[1] - 1, -1, -1):
+        half_bend = half_bend * share + slope
+        slope = slope * share + value
         value = value * share + coefficients[:, n]
-    return np.maximum(value, found[k, place]) + v[:, 0], share
+    return value, slope, 2.0 * half_bend
 
 
 @cache

@@ -51,6 +51,11 @@ class Feature:
     numbers: tuple[float, ...] = ()
     noise: float | None = None
 
+    @property
+    def text(self) -> str:
+        """As it is written in a fit file."""
+        return f"{self.kind}({', '.join([*self.signals, *(f'{one:g}' for one in self.numbers)])})"
+
     def of(self, times: Floats, values: Mapping[str, Floats]) -> float:
         """Its value in a record; NaN where it does not occur."""
         return _OF[self.kind](times, [values[name] for name in self.signals], self.numbers)

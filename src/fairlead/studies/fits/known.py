@@ -1,8 +1,14 @@
 """What is known of parameters after a fit: intervals, and combinations that the data do not tell.
 
-With J = dr/dz at the solution, s^2 (J'J)^-1 is the covariance of z for independent noise of deviation s; a robust
-loss has the sandwich of it (Huber 1981, section 6.3). The bootstrap draws blocks of residuals anew (Kuensch 1989), so
-that noise may hang together over a block, and takes one Gauss-Newton step from the solution for each draw.
+With J = dr/dz at the solution, psi = rho'(r) and residuals in groups g that share a noise (problem.py), an M-estimator
+has about the covariance (Huber, Robust Statistics, 1981, section 7.6, there for one group)
+
+    K^2 A^-1 B A^-1,   A = sum of m_g J_g'J_g,   B = sum of q_g J_g'J_g,   K = 1 + p/n var(psi')/mean(psi')^2
+    m_g = mean of psi' in g,   q_g = sum of psi^2 in g / (n_g - h_g),   h_g = tr(m_g A^-1 J_g'J_g)
+
+where h_g is the part of the p parameters that group g tells. Of least squares psi = r, so that one group gives
+s^2 (J'J)^-1; a noise that is given makes q_g = 1. The factor is that of Student's distribution, its degrees of freedom
+those of the sum over the groups (Satterthwaite, Biometrics Bull. 2:110, 1946), by which the bootstrap is widened, too.
 
 The singular value of a direction v of z says how much the data feel it. The data do not tell that combination where
 s/value exceeds the range between the bounds, or where the value is not above the error of the differences.
@@ -10,7 +16,6 @@ s/value exceeds the range between the bounds, or where the value is not above th
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,13 +25,14 @@ from numpy.typing import NDArray
 
 from fairlead.studies.differences.steps import Step
 from fairlead.studies.fits.fit_file import LINEAR
-from fairlead.studies.fits.problem import Problem
+from fairlead.studies.fits.problem import Group, Problem
 
 Floats = NDArray[np.float64]
 LEVEL = 0.95
-DRAWS = 400
-BLOCKS = 40
-"""Blocks of residuals of each target that the bootstrap draws from, at most."""
+LEAST_FREE = 3.0
+"""Of a group by itself: where residuals of one are fewer beyond what it tells, all are taken to share a noise."""
+LEAST_SLOPE = 0.05
+"""Of the mean of psi', which is negative where most residuals are outliers of cauchy or arctan."""
 TAKES_PART = 0.2
 """Share of a direction from which on a parameter is named in its sentence."""
 
@@ -54,38 +60,81 @@ class Direction:
     sentence: str
 
 
+@dataclass(frozen=True)
+class Spread:
+    """How the values found would scatter: covariance of z, degrees of freedom, and what a bootstrap needs of it."""
+
+    covariance: Floats
+    free: Floats
+    """By parameter; infinite where all noise is given."""
+    groups: tuple[Group, ...]
+    draw: Floats
+    """[residuals]: psi, in the size that it has where no parameter is fitted."""
+    gain: Floats
+    """[p, residuals]: change of z for one of psi."""
+
+
+def spread_of(problem: Problem, j: Floats, r: Floats, kind: str = LINEAR, scale: float = 1.0) -> Spread:
+    """Of residuals r with derivatives J [residuals, p] at the solution, under a loss."""
+    n, p = j.shape
+    weight, slope = loss_slopes(kind, scale, r)
+    psi, groups = weight * r, problem.groups
+    mean = np.array([max(float(slope[one.at].mean()), LEAST_SLOPE) for one in groups])
+    squares = np.array([j[one.at].T @ j[one.at] for one in groups])
+    bread = np.asarray(np.linalg.pinv(np.tensordot(mean, squares, 1)), np.float64)
+    count = np.array([len(one.at) for one in groups])
+    free = count - mean * np.trace(bread @ squares, axis1=1, axis2=2)
+    correction = 1.0 + p / n * float(np.var(slope)) / max(float(slope.mean()), LEAST_SLOPE) ** 2
+    draw = psi.copy()
+    for one, all_of_it, left in zip(groups, count, free, strict=True):
+        draw[one.at] *= correction * math.sqrt(all_of_it / max(left, 1.0))
+    parts, degrees = [], []
+    for pool in _pools([one.known and kind == LINEAR for one in groups], free):
+        given, left = groups[pool[0]].known and kind == LINEAR, max(float(free[pool].sum()), 1.0)
+        noise = 1.0 if given else sum(float(psi[groups[k].at] @ psi[groups[k].at]) for k in pool) / left
+        parts.append(correction**2 * noise * bread @ squares[pool].sum(axis=0) @ bread)
+        degrees.append(math.inf if given else left)
+    return Spread(np.sum(parts, axis=0), _degrees(parts, degrees), groups, draw, -bread @ j.T)
+
+
+def _pools(given: Sequence[bool], free: Floats) -> list[list[int]]:
+    """Which groups tell one noise together."""
+    alone, own = [[k] for k, one in enumerate(given) if one], [k for k, one in enumerate(given) if not one]
+    if not own:
+        return alone
+    return [*alone, *([own] if (free[own] < LEAST_FREE).any() else [[k] for k in own])]
+
+
+def _degrees(parts: Sequence[Floats], degrees: Sequence[float]) -> Floats:
+    """Degrees of freedom of the variances of all parameters, which are sums over pools."""
+    variances = np.array([np.diag(one) for one in parts])
+    uncertain = (variances**2 / np.array(degrees)[:, None]).sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.where(uncertain > 0.0, variances.sum(axis=0) ** 2 / uncertain, math.inf))
+
+
 def intervals(
-    problem: Problem, z: Floats, j: Floats, r: Floats, slopes: tuple[Floats, Floats], directions: Sequence[Direction],
-    seed: int,
-) -> list[Interval]:  # fmt: skip
-    """Of every parameter. `slopes`: first and second derivative factors of the loss, 1 and 1 for least squares."""
+    problem: Problem, z: Floats, spread: Spread, drawn: Floats, directions: Sequence[Direction]
+) -> list[Interval]:
+    """Of every parameter; `drawn` are changes of z by the bootstrap [draws, p]."""
     from scipy import stats
 
-    n, p = j.shape
+    n, p = len(spread.draw), len(z)
     hidden = {name for one in directions if not one.told for name, share in one.shares.items()
               if abs(share) >= TAKES_PART}  # fmt: skip
     if n <= p and not problem.known_noise:
         hidden = {one.name for one in problem.sought}
-    bread = np.asarray(np.linalg.pinv(j.T @ (slopes[0][:, None] * j)), np.float64)
-    if problem.known_noise and (slopes[0] == 1).all():
-        covariance, factor = bread, float(stats.norm.ppf((1 + LEVEL) / 2))
-    else:
-        free = max(n - p, 1)
-        pull = slopes[0] * r
-        spread = float(pull @ pull) / free
-        meat = j.T @ j * spread if (slopes[0] == 1).all() else j.T @ (pull[:, None] ** 2 * j) * n / free
-        covariance, factor = bread @ meat @ bread, float(stats.t.ppf((1 + LEVEL) / 2, free))
-    drawn = _bootstrap(problem, j, r, slopes[0], bread, seed)
     made = []
     for k, one in enumerate(problem.sought):
         value = _back(problem, z, k, z[k])
         if one.name in hidden:  # what the data do not tell may be wider than a float holds
             made.append(Interval(value, None, None, None))
             continue
-        half = factor * math.sqrt(max(covariance[k, k], 0.0))
+        factor = float(stats.t.ppf((1 + LEVEL) / 2, spread.free[k]))
+        half = factor * math.sqrt(max(spread.covariance[k, k], 0.0))
         low, high = (_back(problem, z, k, z[k] + side * half) for side in (-1, 1))
-        shares = [(1 - LEVEL) / 2, (1 + LEVEL) / 2]
-        quantiles = [_back(problem, z, k, z[k] + q) for q in np.quantile(drawn[:, k], shares)]
+        shares, wider = [(1 - LEVEL) / 2, (1 + LEVEL) / 2], factor / float(stats.norm.ppf((1 + LEVEL) / 2))
+        quantiles = [_back(problem, z, k, z[k] + wider * q) for q in np.quantile(drawn[:, k], shares)]
         made.append(Interval(value, low, high, (quantiles[0], quantiles[1])))
     return made
 
@@ -94,7 +143,7 @@ def directions(problem: Problem, j: Floats, r: Floats, sizes: Sequence[Step]) ->
     """The singular directions of J, the best told first, each with a sentence."""
     n, p = j.shape
     _, values, rows = np.linalg.svd(j, full_matrices=False)
-    deviation = 1.0 if problem.known_noise else math.sqrt(float(r @ r) / max(n - p, 1))
+    deviation = 1.0 if problem.known_noise or n <= p else math.sqrt(float(r @ r) / (n - p))
     floor = math.sqrt(sum(one.deviation**2 for one in sizes if math.isfinite(one.deviation)))
     low, high = problem.bounds
     made = []
@@ -130,25 +179,6 @@ def _percent(across: float) -> str:
     return f"{100 * across:.2g} %" if across < 10 else "more than its own size"
 
 
-def _bootstrap(problem: Problem, j: Floats, r: Floats, weights: Floats, bread: Floats, seed: int) -> Floats:
-    """Changes of z, shape (draws, parameters), from residuals drawn in blocks within each target."""
-    chance, starts = np.random.default_rng(seed), np.cumsum([0, *(one.count for one in problem.targets)])
-    centred, n, p = r.copy(), *j.shape
-    centred *= math.sqrt(n / max(n - p, 1))
-    made = np.empty((DRAWS, p))
-    for draw in range(DRAWS):
-        taken = []
-        for begin, end in itertools.pairwise(starts.tolist()):
-            size = end - begin
-            length = max(1, round(size ** (1 / 3)), size // BLOCKS if size > BLOCKS * 50 else 1)
-            firsts = chance.integers(0, size, -(-size // length))
-            taken.append((begin + (firsts[:, None] + np.arange(length)) % size).ravel()[:size])
-        sample = np.concatenate(taken)
-        signs = chance.choice([-1.0, 1.0], 1) if n < BLOCKS else 1.0
-        made[draw] = -bread @ (j.T @ (weights * (signs * centred[sample])))
-    return made
-
-
 def _back(problem: Problem, z: Floats, index: int, value: float) -> float:
     """A value of z as the parameter in SI."""
     moved = z.copy()
@@ -157,13 +187,18 @@ def _back(problem: Problem, z: Floats, index: int, value: float) -> float:
 
 
 def loss_slopes(kind: str, scale: float, r: Floats) -> tuple[Floats, Floats]:
-    """Rho' of a loss at (r/scale)^2, and ones, as scipy.optimize.least_squares defines its losses."""
+    """psi/r and psi' of a loss; psi = d/dr of scale^2/2 rho((r/scale)^2), as scipy.optimize.least_squares has it."""
     if kind == LINEAR:
         return np.ones_like(r), np.ones_like(r)
     z = (r / scale) ** 2
-    first = {"soft_l1": lambda: (1 + z) ** -0.5, "huber": lambda: np.where(z <= 1, 1.0, z**-0.5),
-             "cauchy": lambda: 1 / (1 + z), "arctan": lambda: 1 / (1 + z**2)}[kind]()  # fmt: skip
-    return first, np.ones_like(r)
+    first, second = {
+        "soft_l1": lambda: ((1 + z) ** -0.5, -0.5 * (1 + z) ** -1.5),
+        "huber": lambda: (np.where(z <= 1, 1.0, np.maximum(z, 1.0) ** -0.5),
+                          np.where(z <= 1, 0.0, -0.5 * np.maximum(z, 1.0) ** -1.5)),
+        "cauchy": lambda: (1 / (1 + z), -((1 + z) ** -2)),
+        "arctan": lambda: (1 / (1 + z**2), -2 * z / (1 + z**2) ** 2),
+    }[kind]()  # fmt: skip
+    return first, first + 2 * z * second
 
 
 def loss_sum(kind: str, scale: float, r: Floats) -> float:

@@ -72,7 +72,7 @@ def _judge(asked: Asked, law: Law, records: list[Record], targets: list[Target],
     whole = fit(asked, targets, law, also=also())
     if told is not None:
         told(f"{law.name}: loss {whole.loss:.6g} in {whole.runs} runs")
-    judged, values = Judged(law, fitted=whole), {"": whole.values}
+    judged, values, targets = Judged(law, fitted=whole), {"": whole.values}, [*whole.problem.targets]
     for k, record in enumerate(records):
         rest = foretelling(asked, [*targets[:k], *targets[k + 1 :]], law, whole, also(record.name))
         values[record.name] = rest

@@ -1,14 +1,16 @@
 """Residuals of a fit: what a model computes beside what was measured, in standard deviations.
 
 In time, the residual of a signal is (computed - measured)/scale at every time of the record, where scale is the noise
-if it is given, else the spread of the measured signal. By features, it is that of each feature. A run that does not
+if it is given, else the spread of the measured signal; under a robust loss, which must know what an outlier is, then
+the noise that is left of it. By features, it is that of each feature. A run that does not
 finish leaves residuals of FAR, so that a search turns away from it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,8 @@ from fairlead.studies.fits.measured import Column, Measured, column_of, read_tab
 
 Floats = NDArray[np.float64]
 FAR = 1e3
+NORMAL = 1.4826
+"""Deviation of normal noise over the median of its size."""
 TIME, FEATURES, STATISTIC = "time", "features", "statistics"
 
 
@@ -53,6 +57,8 @@ class Target:
     record: Record
     by: str
     features: tuple[Feature, ...] = ()
+    left: Mapping[str, float] = field(default_factory=dict)
+    """Noise of signals for which none is given, as a fit before this one left it."""
 
     @property
     def count(self) -> int:
@@ -71,6 +77,14 @@ class Target:
         curves = self.record.computed(values)
         return np.full(self.count, FAR) if curves is None else self.of(curves)
 
+    def without(self, values: Mapping[str, float]) -> tuple[str, ...]:
+        """Names of features that have no value in the run for these parameters, as a period without a swing."""
+        curves = self.record.computed(values) if self.features else None
+        if curves is None:
+            return ()
+        got = dict(zip(self.record.measured.values, curves, strict=True))
+        return tuple(one.text for one in self.features if not np.isfinite(one.of(self.record.measured.times, got)))
+
     def of(self, curves: Floats) -> Floats:
         """Residuals of computed curves."""
         measured = self.record.measured
@@ -85,7 +99,18 @@ class Target:
 
     def _scale(self, name: str) -> float:
         noise, spread = self.record.measured.noise[name], float(np.std(self.record.measured.values[name]))
-        return noise if noise is not None else spread if spread > 0 else 1.0
+        return noise if noise is not None else self.left.get(name, spread if spread > 0 else 1.0)
+
+    def with_noise_of(self, r: Floats, least: float) -> Target:
+        """The same with a noise where none is given: from the median size of its residuals, which outliers hardly move.
+
+        `least` is a residual that is rounding.
+        """
+        if self.by != TIME:
+            return self
+        parts = zip(self.record.measured.values, np.split(r, len(self.record.units)), strict=True)
+        left = {name: max(NORMAL * float(np.median(np.abs(own))), least) * self._scale(name) for name, own in parts}
+        return replace(self, left=left)
 
 
 def records_of(asked: Asked, law: Law = Law("")) -> list[Record]:  # noqa: B008 - frozen
@@ -93,7 +118,10 @@ def records_of(asked: Asked, law: Law = Law("")) -> list[Record]:  # noqa: B008 
     faults: list[Fault] = []
     records = [_record(asked, name, given, law, faults) for name, given in asked.given.records.items()]
     for name, text in asked.given.features.items():
-        _features(asked, [(name, text)], records, faults)
+        for one in _features(asked, [(name, text)], records, faults):
+            if all(record is not None for record in records) and not any(_has(record, one) for record in records):
+                what = f"{name} = {shown(text)} has no value in any record"
+                faults.append(Fault(asked.at("features", name), what, "Leave it out, or measure longer."))
     if faults:
         raise ModelError(dict.fromkeys(faults))
     return [record for record in records if record is not None]
@@ -109,9 +137,16 @@ def targets_of(asked: Asked, records: Iterable[Record], chaotic: Mapping[str, bo
         texts = list(asked.given.features.items()) if by == FEATURES else [
             (shape.format(name), shape.format(name)) for name in record.measured.values for shape in STATISTICS
         ] if by == STATISTIC else []  # fmt: skip
-        features = tuple(one for one in _features(asked, texts, [record], []) if set(one.signals) <= set(record.units))
+        features = tuple(one for one in _features(asked, texts, [record], []) if _has(record, one))
         made.append(Target(record, by, features))
     return made
+
+
+def _has(record: Record | None, one: Feature) -> bool:
+    """Whether a feature has a value in what was measured."""
+    if record is None or not set(one.signals) <= set(record.units):
+        return False
+    return bool(np.isfinite(one.of(record.measured.times, record.measured.values)))
 
 
 def _features(
@@ -208,6 +243,17 @@ def _placed(fault: Fault, where: Location) -> Fault:
     return fault if fault.where is not None and fault.where.line else Fault(where, fault.what, fault.way_out)
 
 
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Residuals that share a noise: their places, whether it is given, and whether they follow each other in time."""
+
+    at: NDArray[np.intp]
+    known: bool
+    in_order: bool
+    record: str = ""
+    signal: str = ""
+
+
 @dataclass(frozen=True)
 class Problem:
     """Parameters and targets: residuals over z, the parameters in units of their ranges or by their logarithms."""
@@ -239,6 +285,23 @@ class Problem:
         """All residuals."""
         values = self.values(z)
         return np.concatenate([one.residuals(values) for one in self.targets])
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Residuals that share a noise: a signal of a record each, and all features together."""
+        made, features, begin = [], [], 0
+        for one in self.targets:
+            place = np.arange(begin, begin + one.count)
+            if one.by == TIME:
+                noise = one.record.measured.noise
+                made += [Group(at, noise[name] is not None, True, one.record.name, name)
+                         for at, name in zip(np.split(place, len(noise)), one.record.measured.values, strict=True)]
+            else:
+                features.append(place)
+            begin += one.count
+        if features:
+            made.append(Group(np.concatenate(features), all(one.known_noise for one in self.targets), False))
+        return tuple(made)
 
     @property
     def known_noise(self) -> bool:

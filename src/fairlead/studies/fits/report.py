@@ -34,11 +34,13 @@ def record_of(
                 "left_out": name in asked.given.leave_out, "chaotic": bool(chaotic.get(name)),
                 "by": next((one.by for one in targets if one.record.name == name), None),
                 "errors": None if found is None else {
-                    signal: {**vars(error), "unit": units[name][signal]} for signal, error in found.items()
+                    signal: {**vars(error), "unit": units[name][signal],
+                             "block": fitted.blocks.get((name, signal))} for signal, error in found.items()
                 },
             }
             for name, found in errors.items()
         },
+        "remarks": [*fitted.remarks],
         "directions": [vars(one) for one in fitted.directions],
         "starts": [vars(one) for one in fitted.starts],
     }  # fmt: skip
@@ -64,7 +66,7 @@ def laws_record(judged: Sequence[Judged]) -> dict[str, Any]:
 
 def lines_of(told: Mapping[str, Any]) -> Iterator[str]:
     """A fit as lines."""
-    yield from _parameter_lines(told["parameters"])
+    yield from _parameter_lines(told["parameters"], "no interval" if told["remarks"] else "not told by the data")
     for name, one in told["records"].items():
         word = "left out" if one["left_out"] else f"fitted by {one['by']}"
         if one["chaotic"]:
@@ -74,9 +76,12 @@ def lines_of(told: Mapping[str, Any]) -> Iterator[str]:
             continue
         for signal, error in one["errors"].items():
             sizes = f"mean error {error['mean']:.4g} {error['unit']}, rms {error['rms']:.4g} {error['unit']}"
-            yield f"{name} ({word}): {signal}: {sizes}"
+            block = error["block"]
+            drawn = f"; bootstrap in blocks of {block} samples" if block is not None and block > 1 else ""
+            yield f"{name} ({word}): {signal}: {sizes}{drawn}"
+    yield from told["remarks"]
     for one in told["directions"]:
-        if not one["told"]:
+        if not one["told"] and not told["remarks"]:
             yield one["sentence"]
     sizes = ", ".join(f"{name} {one['step']:.2g} ({one['step_error']:.1g})" for name, one in told["parameters"].items())
     yield f"noise floor {told['noise_floor']:.2g} of a residual; steps (error of the derivative): {sizes}"
@@ -85,12 +90,12 @@ def lines_of(told: Mapping[str, Any]) -> Iterator[str]:
     yield f"loss {told['loss']:.6g}; {same} of {len(ended)} starts end there; {told['runs']} runs"
 
 
-def _parameter_lines(parameters: Mapping[str, Any]) -> Iterator[str]:
+def _parameter_lines(parameters: Mapping[str, Any], without: str) -> Iterator[str]:
     for name, one in parameters.items():
         unit, factor = (f" {one['unit']}" if one["unit"] else ""), one["factor"]
         line = f"{name} = {one['value'] / factor:.6g}{unit}"
         if one["interval"] is None:
-            line += ", not told by the data"
+            line += f", {without}"
         else:
             low, high = (x / factor for x in one["interval"])
             drawn = [x / factor for x in one["bootstrap"]]

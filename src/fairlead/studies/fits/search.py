@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 
 from fairlead.errors import FairleadError
 from fairlead.studies.differences.steps import CHAOS, Step, jacobian, noise_floor, steps
-from fairlead.studies.fits.fit_file import Asked, Law
-from fairlead.studies.fits.known import Direction, Interval, directions, intervals, loss_slopes, loss_sum
+from fairlead.studies.fits.bootstrap import block_lengths, changes_of_z
+from fairlead.studies.fits.fit_file import LINEAR, Asked, Law
+from fairlead.studies.fits.known import Direction, Interval, directions, intervals, loss_sum, spread_of
 from fairlead.studies.fits.problem import FAR, TIME, Problem, Record, Target, records_of, targets_of
 
 Floats = NDArray[np.float64]
@@ -22,6 +24,10 @@ PRECISION = 1e-8
 LITTLE = 0.01
 """Change of the sum of squares at which a search ends, in variances of the noise: 1 is one standard error."""
 MOST_TURNS = 30
+MOST_NOISES, SAME_NOISE = 5, 0.05
+"""Fits at most for the noise that is left under a robust loss, and the change of it that is none."""
+ROUNDING = 10.0
+"""Noise floors of the engine that a residual is rounding below."""
 CLOSE = 0.01
 """A contained law's fit is where a search begins if the loss there is at most this share above the best so far. Bounds
 such as those of a logarithm keep a law from being quite the one it contains."""
@@ -53,6 +59,10 @@ class Fitted:
     steps: dict[str, Step]
     starts: tuple[Start, ...]
     runs: int
+    blocks: dict[tuple[str, str], int]
+    """Residuals that the bootstrap draws together, by record and signal."""
+    remarks: tuple[str, ...] = ()
+    """What a reader must know of the fit: features without a value, no residual to spare."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +76,9 @@ class Error:
 class Counted:
     """Residuals over z that count their runs."""
 
-    def __init__(self, problem: Problem) -> None:
-        """No run yet."""
-        self.problem, self.runs = problem, 0
+    def __init__(self, problem: Problem, runs: int = 0) -> None:
+        """`runs` so far."""
+        self.problem, self.runs = problem, runs
 
     def __call__(self, z: Floats) -> Floats:
         """All residuals."""
@@ -95,10 +105,16 @@ def chaotic(records: list[Record], problem: Callable[[list[Target]], Problem]) -
 def foretelling(asked: Asked, targets: list[Target], law: Law, like: Fitted, also: Places = ()) -> dict[str, float]:
     """Values of the parameters fitted to some of the targets, from all starts, by the steps of a fit.
 
-    No search begins where a fit to all targets ended, which has seen what is to be foretold; nor may `also`.
+    No search begins where a fit to all targets ended, which has seen what is to be foretold; nor may `also`. But if the
+    targets are met better there, all searches have ended in other minima. Then one more begins there: what it comes to
+    is what a search of these targets alone, from better starts, would have come to.
     """
     problem = Problem((*asked.sought, *law.sought), tuple(targets))
-    best, _ = _searches(asked, Counted(problem), [like.steps[one.name] for one in problem.sought], None, also)
+    counted, sizes = Counted(problem), [like.steps[one.name] for one in problem.sought]
+    best, _ = _searches(asked, counted, sizes, None, also)
+    least, _, place = _best_place(asked, counted, [("", problem.z(like.values[one.name] for one in problem.sought))])
+    if place is not None and least < best.cost * (1 - CLOSE):
+        best = min(best, _search(asked, counted, place, sizes), key=lambda each: each.cost)
     return problem.values(best.x)
 
 
@@ -158,20 +174,77 @@ def fit(asked: Asked, targets: list[Target], law: Law = Law(""), told: Told | No
     inside = _inside(problem.start, bounds)
     first = counted(inside)
     if (first == FAR).all():
-        record = targets[0].record
+        record, values = targets[0].record, problem.values(inside)
+        if said := _without(targets, values):
+            raise FairleadError(f"{said}\n    Begin at other values.")
         raise FairleadError(f"At the start of the parameters no record's run finishes ({record.name}: "
-                            f"{record.sentence(problem.values(inside))})\n    Begin at other values.")  # fmt: skip
+                            f"{record.sentence(values)})\n    Begin at other values.")  # fmt: skip
     noise = noise_floor(counted, inside, bounds)
     sizes = steps(counted, inside, bounds, noise)
     best, starts = _searches(asked, counted, sizes, told, also)
+    if loss.kind != LINEAR and not problem.known_noise:
+        counted, best, starts = _with_noise_left(asked, counted, best, starts, sizes, noise)
+        problem = counted.problem
     sizes = steps(counted, best.x, bounds, noise_floor(counted, best.x, bounds))
     r, j = counted(best.x), jacobian(counted, best.x, sizes, bounds)
     ways = directions(problem, j, r, sizes)
-    known = intervals(problem, best.x, j, r, loss_slopes(loss.kind, loss.scale, r), ways, asked.given.seed)
+    spread = spread_of(problem, j, r, loss.kind, loss.scale)
+    lengths = block_lengths(spread)
+    known = intervals(problem, best.x, spread, changes_of_z(spread, lengths, asked.given.seed), ways)
     names = [one.name for one in problem.sought]
     found_ways = dict(zip(names, known, strict=True))
     return Fitted(problem, problem.values(best.x), float(best.cost), r, found_ways, tuple(ways), noise,
-                  dict(zip(names, sizes, strict=True)), tuple(starts), counted.runs)  # fmt: skip
+                  dict(zip(names, sizes, strict=True)), tuple(starts), counted.runs,
+                  {(one.record, one.signal): length
+                   for one, length in zip(problem.groups, lengths, strict=True) if one.in_order},
+                  tuple(_remarks(problem, best.x)))  # fmt: skip
+
+
+def _remarks(problem: Problem, z: Floats) -> Iterator[str]:
+    if said := _without(problem.targets, problem.values(z)):
+        yield f"{said} The search cannot follow them, and tells nothing of the parameters. Begin at other values."
+    count, sought = sum(one.count for one in problem.targets), len(z)
+    if count <= sought and not problem.known_noise:
+        numbers = f"{count} number{'s' * (count > 1)}", f"{sought} parameter{'s' * (sought > 1)}"
+        yield (f"The data are {numbers[0]} for {numbers[1]}: they leave nothing over to tell the noise from, so no "
+               f"interval is told. Fit curves (by: time), or give more features or records.")  # fmt: skip
+
+
+def _without(targets: Iterable[Target], values: dict[str, float]) -> str:
+    """Features that have no value in the model, record by record; "" where all have one."""
+    found = [(one.record.name, names) for one in targets if (names := one.without(values))]
+    told = "; ".join(f"{', '.join(names)} of {record}" for record, names in found)
+    return told and f"No value in the model, at these values of the parameters: {told}."
+
+
+def _with_noise_left(
+    asked: Asked, counted: Counted, best: Any, starts: list[Start], sizes: list[Step], noise: float
+) -> tuple[Counted, Any, list[Start]]:
+    """The fit again with the noise that it leaves, until that changes no more, and what the starts come to with it."""
+    loss, problem = asked.given.loss, counted.problem
+
+    def sums(places: Sequence[Floats]) -> list[float]:
+        return [loss_sum(loss.kind, loss.scale, counted(place)) for place in places]
+
+    ended = [problem.z(one.ended.values()) for one in starts if math.isfinite(one.loss)]
+    for _ in range(MOST_NOISES):
+        ends, before = np.cumsum([one.count for one in problem.targets]), _noise_left(problem)
+        parts = zip(problem.targets, np.split(counted(best.x), ends[:-1]), strict=True)
+        problem = replace(problem, targets=tuple(one.with_noise_of(part, ROUNDING * noise) for one, part in parts))
+        counted = Counted(problem, counted.runs)
+        places = [best.x, *ended]
+        best = _search(asked, counted, _inside(places[int(np.argmin(sums(places)))], problem.bounds), sizes)
+        now = _noise_left(problem)
+        if len(before) and (np.abs(now - before) <= SAME_NOISE * now).all():
+            break
+    found = iter(sums(ended))
+    starts = [replace(one, loss=next(found)) if math.isfinite(one.loss) else one for one in starts]
+    end = problem.values(best.x)
+    return counted, best, [*starts, Start(end, end, float(best.cost), "with the noise that is left")]
+
+
+def _noise_left(problem: Problem) -> Floats:
+    return np.array([noise for one in problem.targets for noise in one.left.values()])
 
 
 def errors(record: Record, values: dict[str, float]) -> dict[str, Error] | None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fairlead.cases.row import FINISHED
+from fairlead.errors import UsageError
 from fairlead.report.figures import DOTS_PER_INCH, STYLE
 from fairlead.report.panel import COLOURS
 from fairlead.studies.pictures.indices import kind_of, morris_indices, sobol_indices
@@ -27,21 +28,30 @@ MOST_LETTERS, MOST_TICKS = 60, 12
 ROOM = 0.2  # of the width of a tornado, for what stands at the ends of its bars
 
 
-def draw(rows: Rows, figure: str, folder: Path) -> list[Path]:
-    """Write the pictures of one figure of a sweep into a folder, as PNG. Returns them."""
+def draw(rows: Rows, figure: str, folder: Path) -> tuple[list[Path], list[str]]:
+    """Write the pictures of one figure of a sweep into a folder, as PNG: which, and why others cannot be drawn.
+
+    Raises UsageError where there is none to draw.
+    """
     import matplotlib
 
-    written = []
+    written, reasons = list[Path](), list[str]()
     with matplotlib.rc_context({**STYLE, "backend": "agg"}):
         from matplotlib.figure import Figure
 
         for name, make, size in fitting(rows):
             made = Figure(figsize=size, layout="constrained")
-            make(made, rows, figure)
+            try:
+                make(made, rows, figure)
+            except UsageError as error:
+                reasons.append(str(error))
+                continue
             folder.mkdir(parents=True, exist_ok=True)
             written.append(folder / f"{name}.png")
             made.savefig(written[-1], dpi=DOTS_PER_INCH)
-    return written
+    if not written:
+        raise UsageError("\n".join(reasons) or "All cases have the same values, so there is nothing to draw.")
+    return written, reasons
 
 
 def folder_name(figure: str) -> str:
@@ -60,7 +70,7 @@ def fitting(rows: Rows) -> Iterator[tuple[str, Draw, tuple[float, float]]]:
         yield "scatter", _scatter, (8, 2.6 * -(-min(len(rows.numbers), MOST_SCATTERED) // 2))
     if len(rows.varied) > 1:
         yield "tornado", _tornado, (8, 1.2 + 0.4 * len(rows.varied))
-    if rows.numbers:
+    if rows.varied:
         yield "failures", _failures, (7, 5)
     if kind_of(rows):
         yield "indices", _indices, (8, 1.2 + 0.5 * len(rows.varied))
@@ -124,15 +134,16 @@ def _tornado(made: Figure, rows: Rows, figure: str) -> None:
 def _failures(made: Figure, rows: Rows, figure: str) -> None:
     """How every case ended, over two parameters: finished, a limit broken, or the status."""
     ax, frame = made.subplots(), rows.frame
-    x = rows.numbers[0]
-    y = rows.numbers[1] if len(rows.numbers) > 1 else rows.words[0] if rows.words else None
+    x, y, *_ = [*rows.numbers[:2], *rows.words, None, None]
+    assert x is not None, "drawn where something varies"
     ended = frame["status"].where(
         frame["status"] != FINISHED, np.where(frame["limits_broken"] > 0, "limit broken", FINISHED)
     )
     for number, word in enumerate(dict.fromkeys([FINISHED, *sorted(set(ended))])):
         mine = ended == word
         height = frame[y][mine].astype(str if y in rows.words else float) if y else np.zeros(int(mine.sum()))
-        ax.plot(frame[x][mine], height, "o" if word == FINISHED else "X", markersize=4, linestyle="",
+        place = frame[x][mine].astype(str if x in rows.words else float)
+        ax.plot(place, height, "o" if word == FINISHED else "X", markersize=4, linestyle="",
                 color=COLOURS[number % len(COLOURS)], label=f"{word}: {int(mine.sum())}")  # fmt: skip
     made.legend(fontsize=8, loc="outside right upper")
     _named(ax, _axis(rows, x), _axis(rows, y) if y else "")

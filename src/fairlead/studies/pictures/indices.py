@@ -19,7 +19,7 @@ import numpy as np
 from fairlead.cases.row import FINISHED
 from fairlead.errors import UsageError
 from fairlead.studies.pictures.rows import Rows
-from fairlead.studies.sweeps.sampling import LEVELS, MISSING
+from fairlead.studies.sweeps.sampling import EDGE_OF_MORRIS, LEVELS, MISSING
 
 RESAMPLES, SEED, ENDS = 200, 0, (2.5, 97.5)
 
@@ -78,9 +78,9 @@ def morris_indices(rows: Rows, figure: str) -> list[Index]:
     shares = points("morris", sample["samples"], names, sample["seed"], {})
     problem = {"num_vars": len(names), "names": names, "bounds": [[0.0, 1.0]] * len(names)}
     found = morris.analyze(problem, shares, _values(rows, figure), num_levels=LEVELS, seed=SEED)
-    made = []
+    made, whole = [], 1.0 - 2.0 * EDGE_OF_MORRIS  # SALib takes the effects as of steps over the whole range
     for k, name in enumerate(names):
-        size, spread, half = (float(found[word][k]) for word in ("mu_star", "sigma", "mu_star_conf"))
+        size, spread, half = (float(found[word][k]) / whole for word in ("mu_star", "sigma", "mu_star_conf"))
         made.append(Index(name, spread, size, (np.nan, np.nan), (size - half, size + half)))
     return made
 

@@ -53,13 +53,17 @@ class Rows:
         return [name for name in self.heading["parameters"] if self.frame[name].nunique(dropna=False) > 1]
 
     def figure(self, name: str) -> str:
-        """The figure of that name; the first one for "". Raises UsageError."""
+        """The figure of that name; the first one with a value for "". Raises UsageError, also if it has none."""
         known = [*self.heading["units"]]
-        if not name and known:
-            return known[0]
+        told = [one for one in known if self.finished[one].notna().any()]
+        if not name and told:
+            return told[0]
         if name not in known:
             near = did_you_mean(name, known)
             raise UsageError(f"The sweep has no figure {shown(name)}. {near}\n    There are {listing(known)}.")
+        if name not in told:
+            others = f"Figures with values: {listing(told)}." if told else "Nor has any other figure."
+            raise UsageError(f"{name} has no value in any case, so there is nothing to draw.\n    {others}")
         return name
 
     def label(self, name: str) -> str:

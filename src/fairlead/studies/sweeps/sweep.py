@@ -34,6 +34,8 @@ class Standing:
 
     total: int
     reused: int = 0
+    twice: int = 0
+    """Of the reused: those that are another case of the design once more."""
     done: int = 0
     failed: int = 0
     begun: float = field(default_factory=time.monotonic)
@@ -171,6 +173,7 @@ def _missing(job: Job, design: Design, known: set[str], twins: list[tuple[int, s
         key = job.key(values)
         if key in given:
             standing.reused += 1
+            standing.twice += 1
             twins.append((number, key))
         elif key not in known:
             given.add(key)
