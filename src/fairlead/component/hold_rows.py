@@ -45,6 +45,11 @@ class HoldRow:
         return self.way if self.gap is None else self.gap
 
 
+SLIP_ROUNDING = 2e-9
+"""What a slip may be beyond `within` and still be taken away [m/s or rad/s]: twice what guards of speeds are known to,
+so that a contact which a guard does not tear loose can hold."""
+
+
 def slip_row(slip: sympy.Expr, within: sympy.Expr | None, restitution: sympy.Expr, place: str) -> HoldRow:
     """The row of a slip; `place` is where its law is written. Raises TraceError."""
     speeds = [s for s in slip.free_symbols if key(s.name).is_speed]
@@ -52,7 +57,7 @@ def slip_row(slip: sympy.Expr, within: sympy.Expr | None, restitution: sympy.Exp
     if not speeds or any(rate.free_symbols & set(speeds) for rate in rates.values()):
         raise TraceError(f"{place}: hold({slip}) wants a sum of speeds of ports, such as b.v - a.v")
     _fixed(slip, rates, place)
-    little = 1 if within is None else (1 + sympy.sign(within - sympy.Abs(slip))) / 2
+    little = 1 if within is None else (1 + sympy.sign(within + SLIP_ROUNDING - sympy.Abs(slip))) / 2
     _check_restitution(restitution, within is not None, place)
     return HoldRow(slip, rates, slip * little, restitution)
 

@@ -22,7 +22,7 @@ none does, its limit is a force, of which shares of impulses say nothing: the gu
 that have no body in common are judged apart.
 
 Where rigid rows of a circle slip after that, what they hold a body to is given and differs (given_apart.py): who would
-have to pull opens, though no speed changes; if nobody can, the run ends.
+have to pull opens, though no speed changes, or else who is left behind; if nobody can, the run ends.
 
 A slip whose dV is below the error weights is no impact but rounding, and so is one that a contact says it may take
 (`within`): `project` takes these away.
@@ -40,7 +40,7 @@ from __future__ import annotations
 from math import isfinite, sqrt
 
 from fairlead.integrate.codes import APART, DONE, NOT_CONSISTENT, RELEASED, RUBBED
-from fairlead.integrate.events.given_apart import LEAST_APART, slip_of_given
+from fairlead.integrate.events.given_apart import LEAST_APART, leave_behind, slip_of_given
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.impulse_changes import (
     any_support_moves,
@@ -96,7 +96,10 @@ def resolve_impact(m):
     change_zones_for(m)
     if guards.n_fired > 0:
         return RELEASED
-    if contradicted and stays_apart(m):  # once more, for the row in `worst`
+    if contradicted and stays_apart(m):
+        if leave_behind(m):
+            return RELEASED
+        stays_apart(m)  # once more, for the row in `worst`
         return APART
     supports = any_support_moves(problem, point)
     back = NO_REBOUND
