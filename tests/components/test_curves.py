@@ -108,6 +108,33 @@ def test_points_for_backward_slip_may_go_with_any_curve(simulate):
         assert result["block.x"][-1] == pytest.approx(sign * MASS * SPEED**2 / (2 * mu * NORMAL), rel=1e-6)
 
 
+FALLING_NAP = (
+    "{curve: tustin, stiction: 0.5, coulomb: 0.3, velocity: 2 mm/s, backward: [[0, 0.8], [2 mm/s, 0.6], [1, 0.6]]}"
+)
+
+
+@pytest.mark.parametrize("method", [*EVERY, "arctan", "maxwell_slip"])
+def test_every_treatment_slides_and_breaks_away_by_the_curve_of_its_direction(simulate, method: str):
+    """10 N on a body of 10 g under a force that grows by 12 N/s: gone at 5 N or 8 N, then 3 N or 6 N."""
+    text = SLIDING.replace("CURVE", FALLING_NAP).replace("mass: 2 kg", "mass: 10 g")
+    text = text.replace("    connections: [", "      push: {type: ForceSource, force: {ramp: {to: LOAD, over: 1 s}}}\n"
+                        "    connections: [").replace("block.flange]]", "block.flange, push.flange]]")  # fmt: skip
+    gradual = method in (*BRISTLES[1:], "maxwell_slip")  # their way before that grows with the time it takes
+    for sign, stiction, sliding in ((1, 5.0, 3.0), (-1, 8.0, 6.0)):
+        result = simulate(text.replace("LOAD", f"{sign * 12} N"), method=method, speed="0 m/s", **finely(method))
+        assert sign * result["pad.friction"][-1] == pytest.approx(sliding, rel=1e-3)
+        load = 12 * result.t[np.argmax(sign * result["block.x"] > 2e-4)]
+        if gradual:
+            assert 0.75 * stiction < load < stiction
+        else:
+            assert load == pytest.approx(stiction, rel=0.02)
+
+
+def test_the_bristle_of_equal_sites_refuses_a_curve_for_backward_slip(scene):
+    with pytest.raises(ModelError, match=r"pad\.curve: backward points are given, and the sites of method bristle"):
+        scene(SLIDING.replace("CURVE", FALLING_NAP), method="bristle").check()
+
+
 def test_points_that_make_no_sense_are_refused(scene):
     wrong = {"[[0.1, 0.3], [1, 0.3]]": "the first speed is 0.1 m/s", "[[0, -1], [1, 1]]": "a coefficient is negative"}
     for points, says in wrong.items():
