@@ -35,6 +35,10 @@ class Regularised(OneFormula, abstract=True):
         creeping = slip * (1 - tanh(SHARPNESS * beyond)) / 2
         return opposing(slip, friction, creep_rate=creeping)
 
+    def breaks_away_at(p):
+        """As sliding begins: a stiction above the curve is not seen."""
+        return p.curve.coefficient(0)
+
     def reach(p):
         """Slip over creep at which the shape is 99.9 % of its level."""
         return p.inverse(MOST_COUNTED)

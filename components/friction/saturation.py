@@ -57,6 +57,10 @@ class Saturation(Sliding, Creeping):
         """Slow again."""
         return p.creep - direction * (b.v - a.v)
 
+    def breaks_away_at(p):
+        """As sliding begins: a stiction above the curve is not seen."""
+        return p.curve.coefficient(0)
+
     def narrowest(p):
         """The end of the line."""
         return p.creep
