@@ -130,6 +130,25 @@ def test_every_treatment_slides_and_breaks_away_by_the_curve_of_its_direction(si
             assert load == pytest.approx(stiction, rel=0.02)
 
 
+SHAPES = {"tanh": math.tanh, "arctan": lambda q: 2 / math.pi * math.atan(q), "root": lambda q: q / math.hypot(1, q)}
+
+
+@pytest.mark.parametrize("method", SHAPES)
+def test_a_smooth_law_is_the_one_that_its_page_prints(simulate, method: str):
+    """T = N ((1 + s)/2 mu_forward(u) + (1 - s)/2 mu_backward(u)) s with u = sqrt(v^2 + creep^2), s = shape(v/creep)."""
+    speed, creep = 2e-3, 1e-3
+    u, s = math.hypot(speed, creep), SHAPES[method](speed / creep)
+    coefficient = (1 + s) / 2 * (0.3 + 0.2 * math.exp(-u / 2e-3)) + (1 - s) / 2 * np.interp(u, [0, 2e-3], [0.8, 0.6])
+    text = DRIVEN.replace("CURVE", FALLING_NAP).replace("saturation, creep: 1e-9", f"{method}, creep: 1e-3")
+    text = text.replace("{ramp: {from: 0.01 m/s, to: 0.5 m/s, over: 1 s}}", "2 mm/s")
+    result = simulate(text)
+    assert result["pad.friction"][-1] == pytest.approx(10 * coefficient * s, rel=1e-9)
+    page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "treatments" / f"{method}.md"
+    law = page.read_text(encoding="utf-8").split("```text")[1].split("```")[0]
+    assert "N mu(u)" in law
+    assert "u = sqrt(v^2 + creep^2)" in law
+
+
 def test_the_bristle_of_equal_sites_refuses_a_curve_for_backward_slip(scene):
     with pytest.raises(ModelError, match=r"pad\.curve: backward points are given, and the sites of method bristle"):
         scene(SLIDING.replace("CURVE", FALLING_NAP), method="bristle").check()
