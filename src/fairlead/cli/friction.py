@@ -14,7 +14,7 @@ from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
     from fairlead.analysis.characteristic import Characteristic
-    from fairlead.analysis.contact_in_scene import InScene
+    from fairlead.analysis.treatments.in_scene import InScene
     from fairlead.component.base import Family
     from fairlead.component.values import Values
     from fairlead.errors import Fault
@@ -89,7 +89,7 @@ def contacts_of(
     subject: str, settings: list[str], libraries: list[str], method: str
 ) -> tuple[dict[str, Shown], list["Fault"]]:
     """Contacts by name, and remarks on them; equal ones share an entry, named by the first and how many follow."""
-    from fairlead.analysis.contact_in_scene import InScene, in_scene
+    from fairlead.analysis.treatments.in_scene import InScene, in_scene
 
     if _is_curve(subject):
         if settings:
