@@ -69,7 +69,8 @@ class Bristle(OneFormula):
 
     Limits: it is made to look at, not to use. Every bond switches at every 0.8 presliding of slip or less, some 80 000
     times a second in all at 0.05 m/s. The sites reach over `travel` to either side. The work that stretches bonds
-    counts as dissipated at once, since snapping loses it without a power; unloading gives some of it back.
+    counts as dissipated at once, since snapping loses it without a power; unloading gives some of it back. The sites
+    are the same for both directions of slip, so a curve with `backward` is refused.
 
     Source: Haessig and Friedland (1991), On the modeling and simulation of friction, ASME J. Dyn. Sys. Meas. Control
     113, 354 (citation not checked). There the sites are drawn as slip goes on; here they are drawn before.
@@ -124,8 +125,13 @@ class Bristle(OneFormula):
         return Law(a=0, b=0, moved=slip, slip=slip, deflection=mean_stretch(p, moved), slid=moved)
 
     def check(p):
-        """There must be bonds, and a level that they can have; the curve stays where it is."""
+        """There must be bonds, and a level that they can have; the curve stays, the same both ways."""
         yield from stays_in_place(p)
+        if p.curve.backward is not None:
+            yield (
+                "curve", "backward points are given, and the sites of method bristle are the same both ways",
+                "Leave them out, or use another method: all others have both directions.",
+            )  # fmt: skip
         if p.travel > MOST_SITES * p.presliding:
             what = f"{p.travel:g} m of travel have {p.travel / p.presliding:.2g} sites a bond; at most {MOST_SITES}"
             yield "travel", what, f"Give at most {MOST_SITES * p.presliding:g} m."

@@ -35,6 +35,10 @@ class Bristles(Contact, abstract=True):
         """No force passes; the bristles straighten."""
         return Law(a=0, b=0, z=-z / STRAIGHTEN, slip=b.v - a.v, deflection=z)
 
+    def breaks_away_at(p):
+        """As sliding begins: a stiction above the curve is not seen."""
+        return p.curve.coefficient(0)
+
     def check(p):
         """Bristles without friction have no stiffness; the curve stays where it is."""
         yield from stays_in_place(p)

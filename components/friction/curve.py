@@ -108,9 +108,21 @@ def stays_in_place(p):
         )  # fmt: skip
 
 
-def points_make_sense(name, table, what="coefficient"):
-    """Speeds from zero on, no negative coefficient or force: what is wrong, as `check` says it."""
+def points_make_sense(name, table, what="coefficient", speed="m/s"):
+    """Speeds from zero on, no negative coefficient or force, at any speed: what is wrong, as `check` says it."""
     if table.rows[0, 1] != 0.0:
         yield name, f"the first speed is {table.rows[0, 1]:g} m/s", "Begin the table at 0 m/s."
     if (table.rows[:, 3] < 0).any():
         yield name, f"a {what} is negative", f"A negative {what} would drive the slip."
+    elif (falls := falls_below_zero(table)) is not None:
+        yield (
+            name, f"beyond: line has the {what} fall below zero from {falls:.4g} {speed} on",
+            f"A negative {what} would drive the slip. Leave beyond out, and it stays at {table.terms[-1, 0]:g}; "
+            "or give points as far as the slip goes.",
+        )  # fmt: skip
+
+
+def falls_below_zero(table):
+    """Where a table whose points are not negative becomes negative beyond the last one; None where it never does."""
+    end, slope = table.terms[-1, :2]
+    return float(table.left[-1] - end / slope) if slope < 0 else None

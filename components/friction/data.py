@@ -9,7 +9,8 @@ class Data(Curve):
     """mu(v) from points: straight lines (one zone per interval) or a monotone cubic; constant beyond the last.
 
     The first point must be at zero speed; its value is the coefficient to start sliding. Points may stand in a file
-    of two columns beside the netlist: `points: {file: measured.csv, kind: cubic}`.
+    of two columns beside the netlist: `points: {file: measured.csv, kind: cubic}`. With `beyond: line` a curve that
+    rises at its end goes on rising.
     """
 
     word = "table"

@@ -115,6 +115,10 @@ class MaxwellSlip(Contact):
         """The last spring is at its limit: the contact slides."""
         return beyond(p, 4, z4, direction * (b.v - a.v), direction)
 
+    def breaks_away_at(p):
+        """As sliding begins: a stiction above the curve is not seen."""
+        return p.curve.coefficient(0)
+
     def check(p):
         """Springs without friction have no stiffness; the curve stays where it is."""
         yield from stays_in_place(p)

@@ -44,6 +44,10 @@ class ResetIntegrator(Bristles):
         stored = grip * p.ratio * z**2 / 2
         return opposing(slip, sliding_friction(p, direction, slip, grip, pace), z=0, deflection=z, stored=stored)
 
+    def breaks_away_at(p):
+        """As the curve."""
+        return p.curve.breakaway()
+
     @guard("off", to="spring", unit="N")
     def lands(p, normal):
         """Pressed again."""

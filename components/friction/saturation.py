@@ -18,8 +18,9 @@ class Saturation(Sliding, Creeping):
     load af < N mu(creep) creeps at creep*af/(N mu(creep)), which is less than with tanh. The creep is exactly linear,
     so a loaded spring k leaks as exp(-k creep/(N mu) t).
 
-    Limits: it has no stiction and no memory. It is binding friction without the plateau: use binding if stiction
-    matters.
+    Limits: on the line a curve with `backward` points goes over from one direction to the other in proportion to the
+    slip, and T is not straight there. It has no stiction and no memory. It is binding friction without the plateau:
+    use binding if stiction matters.
 
     Source: textbook; Pennestri and others (2016), Nonlinear Dynamics 83, 1785, DOI 10.1007/s11071-015-2485-3, compare
     laws of this kind.
@@ -56,6 +57,10 @@ class Saturation(Sliding, Creeping):
     def slows_forward(p, a, b, direction):
         """Slow again."""
         return p.creep - direction * (b.v - a.v)
+
+    def breaks_away_at(p):
+        """As sliding begins: a stiction above the curve is not seen."""
+        return p.curve.coefficient(0)
 
     def narrowest(p):
         """The end of the line."""

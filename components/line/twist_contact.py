@@ -57,8 +57,13 @@ class PlanarContact(Component):
         return with_lift(given)
 
     def check(p):
-        """The curve stays where it is."""
+        """The curve stays where it is, and is that of the resultant whichever way it goes."""
         yield from stays_in_place(p)
+        if p.curve.backward is not None:
+            yield (
+                "curve", "backward points are given, and a line that turns slips in two directions with one friction",
+                "Leave them out, or set planar_slip: off in the block effects.",
+            )  # fmt: skip
 
     @zone("on")
     def on(p, a, b, turning, normal):

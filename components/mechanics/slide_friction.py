@@ -37,7 +37,7 @@ class SlideFriction(Composite):
 
     def check(p):
         """One of the two ways, and a decay from something to something."""
-        yield from contradictions(p, "force", "N", "sliding on")
+        yield from contradictions(p, "force", "N", "sliding on", "m/s")
 
     def expand(p, scene):
         """A contact pressed with one newton."""
@@ -47,7 +47,7 @@ class SlideFriction(Composite):
         return Expansion(children, [], {"a": "contact.a", "b": "contact.b"}, shown)
 
 
-def contradictions(p, load, unit, going_on):
+def contradictions(p, load, unit, going_on, speed):
     """What `sliding`, `breakaway`, `speed` and `points` say against each other; `load` is a force or a torque."""
     if (p.sliding is None) == (p.points is None):
         yield "", "give either sliding or points", f"One {load}, or {load}s over speed."
@@ -59,7 +59,7 @@ def contradictions(p, load, unit, going_on):
     if p.points is not None and (p.breakaway is not None or p.speed is not None):
         yield "points", "points are given beside breakaway or speed", f"The first point is the {load} to begin."
     if p.points is not None:
-        yield from points_make_sense("points", p.points, load)
+        yield from points_make_sense("points", p.points, load, speed)
 
 
 def curve_of(p):

@@ -120,14 +120,24 @@ class LossyGear(Composite):
             table = getattr(p, name)
             if table is None:
                 continue
-            values = table.rows[:, 3]
+            values, beyond = [*table.terms[:, 0], table(0.0)], table.terms[-1, 1]
             if name == "bearing_points":
-                if (values < 0).any():
-                    yield name, f"a torque is {values.min():g} N*m", "Give what holds back as positive."
-            elif (values > 1).any() or (lowest is not None and (values <= lowest).any()):
-                worst = values.max() if (values > 1).any() else values.min()
-                between = "above 0, up to 1" if lowest is not None else "up to 1"
+                if min(values) < 0:
+                    yield name, f"a torque is {min(values):g} N*m", "Give what holds back as positive."
+                elif beyond < 0:
+                    speed = table.left[-1] - table.terms[-1, 0] / beyond
+                    what = f"beyond: line has the torque fall below zero from {speed:.4g} rad/s on"
+                    yield name, what, "Leave beyond out, or give points as far as the speed goes."
+                continue
+            between = "above 0, up to 1" if lowest is not None else "up to 1"
+            if max(values) > 1 or (lowest is not None and min(values) <= lowest):
+                worst = max(values) if max(values) > 1 else min(values)
                 yield name, f"a share is {worst:g}", f"Shares are {between}."
+            elif beyond > 0 or (beyond < 0 and lowest is not None):
+                end = 1.0 if beyond > 0 else lowest
+                speed = table.left[-1] + (end - table.terms[-1, 0]) / beyond
+                what = f"beyond: line leads to {end:g} at {speed:.4g} rad/s, and on"
+                yield name, what, f"Shares are {between}. Leave beyond out, or give points as far as the speed goes."
 
     def expand(p, scene):
         """Friction on shaft a, what the teeth carry, and a rigid gear."""

@@ -53,7 +53,7 @@ class ShaftFriction(Composite):
 
     def check(p):
         """One of the two ways, and a decay from something to something."""
-        yield from contradictions(p, "torque", "N*m", "turning on")
+        yield from contradictions(p, "torque", "N*m", "turning on", "rad/s")
 
     def expand(p, scene):
         """A contact at a lever arm of one metre, pressed with one newton."""

@@ -108,6 +108,52 @@ def test_points_for_backward_slip_may_go_with_any_curve(simulate):
         assert result["block.x"][-1] == pytest.approx(sign * MASS * SPEED**2 / (2 * mu * NORMAL), rel=1e-6)
 
 
+FALLING_NAP = (
+    "{curve: tustin, stiction: 0.5, coulomb: 0.3, velocity: 2 mm/s, backward: [[0, 0.8], [2 mm/s, 0.6], [1, 0.6]]}"
+)
+
+
+@pytest.mark.parametrize("method", [*EVERY, "arctan", "maxwell_slip"])
+def test_every_treatment_slides_and_breaks_away_by_the_curve_of_its_direction(simulate, method: str):
+    """10 N on a body of 10 g under a force that grows by 12 N/s: gone at 5 N or 8 N, then 3 N or 6 N."""
+    text = SLIDING.replace("CURVE", FALLING_NAP).replace("mass: 2 kg", "mass: 10 g")
+    text = text.replace("    connections: [", "      push: {type: ForceSource, force: {ramp: {to: LOAD, over: 1 s}}}\n"
+                        "    connections: [").replace("block.flange]]", "block.flange, push.flange]]")  # fmt: skip
+    gradual = method in (*BRISTLES[1:], "maxwell_slip")  # their way before that grows with the time it takes
+    for sign, stiction, sliding in ((1, 5.0, 3.0), (-1, 8.0, 6.0)):
+        result = simulate(text.replace("LOAD", f"{sign * 12} N"), method=method, speed="0 m/s", **finely(method))
+        assert sign * result["pad.friction"][-1] == pytest.approx(sliding, rel=1e-3)
+        load = 12 * result.t[np.argmax(sign * result["block.x"] > 2e-4)]
+        if gradual:
+            assert 0.75 * stiction < load < stiction
+        else:
+            assert load == pytest.approx(stiction, rel=0.02)
+
+
+SHAPES = {"tanh": math.tanh, "arctan": lambda q: 2 / math.pi * math.atan(q), "root": lambda q: q / math.hypot(1, q)}
+
+
+@pytest.mark.parametrize("method", SHAPES)
+def test_a_smooth_law_is_the_one_that_its_page_prints(simulate, method: str):
+    """T = N ((1 + s)/2 mu_forward(u) + (1 - s)/2 mu_backward(u)) s with u = sqrt(v^2 + creep^2), s = shape(v/creep)."""
+    speed, creep = 2e-3, 1e-3
+    u, s = math.hypot(speed, creep), SHAPES[method](speed / creep)
+    coefficient = (1 + s) / 2 * (0.3 + 0.2 * math.exp(-u / 2e-3)) + (1 - s) / 2 * np.interp(u, [0, 2e-3], [0.8, 0.6])
+    text = DRIVEN.replace("CURVE", FALLING_NAP).replace("saturation, creep: 1e-9", f"{method}, creep: 1e-3")
+    text = text.replace("{ramp: {from: 0.01 m/s, to: 0.5 m/s, over: 1 s}}", "2 mm/s")
+    result = simulate(text)
+    assert result["pad.friction"][-1] == pytest.approx(10 * coefficient * s, rel=1e-9)
+    page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "treatments" / f"{method}.md"
+    law = page.read_text(encoding="utf-8").split("```text")[1].split("```")[0]
+    assert "N mu(u)" in law
+    assert "u = sqrt(v^2 + creep^2)" in law
+
+
+def test_the_bristle_of_equal_sites_refuses_a_curve_for_backward_slip(scene):
+    with pytest.raises(ModelError, match=r"pad\.curve: backward points are given, and the sites of method bristle"):
+        scene(SLIDING.replace("CURVE", FALLING_NAP), method="bristle").check()
+
+
 def test_points_that_make_no_sense_are_refused(scene):
     wrong = {"[[0.1, 0.3], [1, 0.3]]": "the first speed is 0.1 m/s", "[[0, -1], [1, 1]]": "a coefficient is negative"}
     for points, says in wrong.items():

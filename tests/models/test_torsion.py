@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import fairlead
+from fairlead.errors import ModelError
 from tests.reference.rod_anchor import FrictionAnchor
 
 COUPLE, GRIP = 10.0, 0.35 * 500 * 0.0425  # N m; N m per m held by friction
@@ -127,3 +128,10 @@ def test_on_the_whole_route_twist_goes_through_a_bend_to_the_belts_and_a_rope_un
 def test_on_the_whole_route_a_bend_with_a_friction_of_its_own_for_turning_holds_what_the_drum_winds_in(bundled):
     route = bundled("guidance_route_torsion", {"effects.planar_slip": "off"})
     assert torque_at(route, 1.0) > 20 * abs(torque_at(route, 4.5))
+
+
+def test_a_nap_is_refused_where_a_line_slips_in_two_directions_at_once(scene):
+    text = ROUTE.replace("friction: 0.35", "friction: {coulomb: 0.4, backward: [[0, 0.3], [1, 0.3]]}")
+    with pytest.raises(ModelError, match="backward points are given, and a line that turns slips in two directions"):
+        scene(text.replace("PLANAR", "on").replace("COUPLING", "0 m")).check()
+    scene(text.replace("PLANAR", "off").replace("COUPLING", "0 m")).check()

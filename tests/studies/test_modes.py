@@ -2,6 +2,7 @@
 
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import fairlead
 from fairlead.cli import app
 from fairlead.errors import ModelError
 from fairlead.studies.modes.linear import equations
+from fairlead.studies.modes.spectrum import modes_of
 
 OSCILLATOR = """schema: 1
 name: oscillator
@@ -339,3 +341,36 @@ def test_a_relation_of_positions_leaves_one_motion_and_its_bend_counts(scene, ki
     assert abs(mode.value) ** 2 == pytest.approx(stiffness / inertia, rel=1e-5)
     assert -2 * mode.value.real == pytest.approx(damping / inertia, rel=1e-5)
     assert (found.at_rest, found.held) == (0, 1)
+
+
+def test_equal_lags_one_after_the_other_are_two_modes_and_no_zeros() -> None:
+    """x' = -x, y' = x - y: -1 twice, with left and right vectors that are exactly orthogonal."""
+    whole = np.eye(2)
+    of = SimpleNamespace(names=("one.z", "two.z"), differential=np.array([True, True]))
+    matrix = np.array([[-1.0, 0.0], [1.0, -1.0]])
+    linear = SimpleNamespace(matrix=matrix, pace=1.0, onto=whole, basis=whole, spread=whole, equations=of)
+    found, zeros = modes_of(linear)
+    assert zeros.count == 0
+    assert [mode.value for mode in found] == pytest.approx([-1.0, -1.0], abs=1e-7)  # the root of eps
+
+
+def test_the_bound_of_what_is_zero_is_told_as_a_speed_below_those_of_the_modes(tmp_path) -> None:
+    """Four springs of a contact and the body on them: one oscillates, and each spring keeps what it had."""
+    text = """
+schema: 1
+components:
+  belt: {type: MotionSource, velocity: -0.08 m/s}
+  wall: {type: Ground}
+  block: {type: Mass, mass: 1 kg, position: -0.04 m}
+  spring: {type: Spring, stiffness: 100 N/m}
+  damper: {type: Damper, damping: 0.3 N*s/m}
+  pad: {type: Contact, normal_force: 10 N, method: maxwell_slip, curve: 0.5, viscous: 0.2}
+connections: [[belt.flange, pad.a], [block.flange, pad.b, spring.b, damper.b], [wall.flange, spring.a, damper.a]]
+run: {stop: 1 s}
+"""
+    found = fairlead.modes(made(tmp_path, text))
+    stiffness = 100 + 0.5 * 10 / 2e-5 / 4 * (4 / 1 + 4 / 2 + 4 / 3 + 1)  # N/m, of y_i = i/4 of 20 um
+    assert found.zeros.count == 4
+    assert found.zeros.below < 1e-3 * math.sqrt(stiffness)
+    assert found.modes[0].growth == pytest.approx(-(0.3 + 0.2) / 2, rel=1e-6)
+    assert found.modes[0].frequency == pytest.approx(math.sqrt(stiffness) / (2 * math.pi), rel=1e-6)

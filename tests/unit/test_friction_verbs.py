@@ -67,6 +67,103 @@ def test_bristles_tell_their_stiffness(answer):
     assert found["stiffness"] == "2.5e+05 N/m (bristles)"  # 5 N in 20 um
 
 
+LOADED = "{curve: tustin, stiction: 0.5, coulomb: 0.3, velocity: 5 mm/s, load_exponent: 0.8, load_reference: 20 N}"
+
+
+@pytest.mark.parametrize(
+    ("method", "name", "value"),
+    [("hold", "holding capacity", 0), ("karnopp", "breakaway", 0), ("lugre", "stiffness", 1 / 2e-5),
+     ("binding", "breakaway", 0), ("binding", "f_m", 1 / 1e-4)],
+)  # fmt: skip
+def test_friction_tells_what_counts_of_the_normal_force(answer, method, name, value):
+    """mu_s N_ref (N/N_ref)^n = 0.5 20 5^0.8 = 36.24 N, in 20 um of bristles or 0.1 mm/s of creep; not 50 N."""
+    (found,) = record(answer("friction", LOADED, "--method", method, "--normal", "100 N", "--json"))
+    told = float(found[name].split(" ")[0])
+    assert told == pytest.approx(0.5 * 20 * 5**0.8 * (value or 1), rel=1e-3)
+    assert found["normal force"] == "100 N"
+
+
+@pytest.mark.parametrize(
+    ("method", "level"), [("hold", "5 N"), ("reset_integrator", "5 N"), ("lugre", "3 N"), ("maxwell_slip", "3 N"),
+                          ("saturation", "3 N")])  # fmt: skip
+def test_friction_tells_stiction_only_of_a_method_that_has_it(answer, method, level):
+    """Of a curve that falls at once, what is smooth in the slip sees the sliding level alone."""
+    curve = "{curve: coulomb, stiction: 0.5, coulomb: 0.3}"
+    (found,) = record(answer("friction", curve, "--method", method, "--normal", "10 N", "--json"))
+    assert found["breakaway"] == found["holding capacity"] == level
+
+
+NAP = """
+schema: 1
+components:
+  ground: {type: Ground}
+  block: {type: Mass, mass: 1 kg}
+  pad:
+    type: Contact
+    method: METHOD
+    normal_force: 50 N
+    curve: {coulomb: 0.3, stiction: 0.4, backward: [[0, 0.2], [1 m/s, 0.1]], load_exponent: 0.5, load_reference: 100 N,
+            softening: 0.01 1/K}
+connections: [[ground.flange, pad.a], [pad.b, block.flange]]
+run: {stop: 1 s, accuracy: 1e-6}
+"""
+
+
+def test_friction_tells_and_draws_both_directions(answer, tmp_path, monkeypatch):
+    """0.4 and 0.2 times 100 N sqrt(50/100), at the temperature that the coefficients hold for."""
+    from fairlead.report import friction_figure
+
+    drawn = []
+    monkeypatch.setattr(friction_figure, "draw", lambda found, path, title: drawn.append(found) or path)
+    (tmp_path / "nap.yaml").write_text(NAP.replace("METHOD", "hold"), encoding="utf-8")
+    (found,) = record(answer("friction", "nap.yaml", "--json"))
+    assert found["breakaway"] == found["holding capacity"] == "28.28 N forward, 14.14 N backward"
+    (one,) = drawn
+    assert (one.capacity, one.capacity_backward) == pytest.approx((40 * 0.5**0.5, 20 * 0.5**0.5), rel=1e-12)
+    assert one.branches["forward"][1].max() == pytest.approx(30 * 0.5**0.5, rel=1e-12)
+    (tmp_path / "nap.yaml").write_text(NAP.replace("METHOD", "saturation"), encoding="utf-8")
+    (found,) = record(answer("friction", "nap.yaml", "--json"))
+    assert found["holding capacity"] == "21.21 N forward, 14.14 N backward"
+
+
+TURNING = """
+schema: 1
+components:
+  house: {type: Housing}
+  one: {type: Inertia, moment: 1}
+  two: {type: Inertia, moment: 1}
+  plates: {type: Clutch, radius: 0.1 m, faces: 4, normal_force: 100 N, method: lugre, curve: 0.35}
+  seal: {type: ShaftFriction, sliding: 3 N*m, breakaway: 5 N*m, method: hold}
+connections: [[one.shaft, plates.a], [two.shaft, plates.b, seal.b], [house.shaft, seal.a]]
+run: {stop: 1 s}
+"""
+
+
+def test_friction_of_shafts_is_a_torque_pressed_as_in_the_scene(answer, tmp_path):
+    """4 faces of 100 N at 0.35 and 0.1 m: 14 N m, in bristles of 20 um, or 0.2 mrad; a seal as it is given."""
+    (tmp_path / "turning.yaml").write_text(TURNING, encoding="utf-8")
+    plates, seal = record(answer("friction", "turning.yaml", "--json"))
+    assert (plates["normal force"], plates["breakaway"]) == ("400 N", "14 N*m")
+    assert plates["stiffness"] == f"{14 / 2e-4:.4g} N*m/rad (bristles)"
+    assert "rad/s at 50%" in plates["creep"]
+    assert seal["breakaway"] == "5 N*m"
+    said = answer("friction", "turning.yaml").output
+    assert "of no scene" not in said
+    refused = answer("friction", "turning.yaml", "--normal", "5 N")
+    assert refused.exit_code == 2
+    assert "has a normal force of its own" in " ".join(refused.output.replace("│", " ").split())
+
+
+def test_friction_of_a_curve_refuses_what_it_would_not_heed(answer):
+    for words, says in ((("--normal", "-3 N"), "pressed with more than 0 N"),
+                        (("--set", "creep=1e-3"), "--set creep=1e-3 is for a netlist")):  # fmt: skip
+        refused = answer("friction", "0.4", *words)
+        assert refused.exit_code == 2
+        assert says in " ".join(refused.output.replace("│", " ").split())
+    assert "(of no scene; set it with --normal)" in answer("friction", "0.4").output
+    assert "of no scene" not in answer("friction", "0.4", "--normal", "3 N").output
+
+
 @pytest.mark.slow
 def test_a_curve_needs_no_braces(answer):
     with_braces, without = (

@@ -4,7 +4,7 @@ import json
 import pathlib
 import re
 from collections import ChainMap
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -13,6 +13,8 @@ from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
+    from fairlead.analysis.characteristic import Characteristic
+    from fairlead.analysis.treatments.in_scene import InScene
     from fairlead.component.base import Family
     from fairlead.component.values import Values
     from fairlead.errors import Fault
@@ -37,28 +39,28 @@ def friction(
     verbose: Verbose = False,
 ) -> None:
     """Draw friction against slip speed with its zones; print creep, breakaway, holding capacity, stiffness."""
-    from fairlead.analysis.characteristic import characteristic
     from fairlead.quantities import si
     from fairlead.report.friction_figure import draw
 
     is_file = out.suffix.lower() in (".png", ".svg", ".pdf") and not out.is_dir()
     refuse_place("--out", out, folder=not is_file)
     usual, records = si(normal or "1 N", "N"), []
+    if usual <= 0:
+        raise typer.BadParameter(f"--normal {normal}: a contact is pressed with more than 0 N.")
     contacts, remarks = contacts_of(subject, settings, libraries, method)
-    if normal and all(pressed(values) is not None for values in contacts.values()):
+    if normal and all(one.place.normal is not None for one in contacts.values()):
         raise typer.BadParameter(
             f"--normal {normal}: every contact of {subject} has a normal force of its own. Change that with --set."
         )
-    for number, (names, values) in enumerate(contacts.items()):
-        given = pressed(values)
-        found = characteristic(values, usual if given is None else given)
+    for number, (names, one) in enumerate(contacts.items()):
+        found = one.characteristic(usual)
         file = out.with_stem(f"{out.stem}{number or ''}") if is_file else out / f"friction{number or ''}.png"
         file.parent.mkdir(parents=True, exist_ok=True)
         figure = draw(found, file, f"{names}: {found.label}")
         rows = found.rows()
         records.append({"contacts": names, "method": found.label, "figure": str(figure), **dict(rows)})
         if not (as_json or quiet):
-            note = " (of no scene; set it with --normal)" if given is None else ""
+            note = " (of no scene; set it with --normal)" if one.place.normal is None and not normal else ""
             echo(f"{names}: {found.label}")
             for name, value in rows:
                 echo(f"  {name:<18}{value}{note if name == 'normal force' else ''}")
@@ -69,13 +71,34 @@ def friction(
         echo(json.dumps(records, indent=2))
 
 
+class Shown(NamedTuple):
+    """A contact with its numbers, and those that the scene around it adds."""
+
+    values: "Values"
+    place: "InScene"
+
+    def characteristic(self, usual: float) -> "Characteristic":
+        """Its force over slip, pressed with `usual` [N] where the scene has no number for that."""
+        from fairlead.analysis.characteristic import characteristic
+
+        found = characteristic(self.values, usual if self.place.normal is None else self.place.normal)
+        return found if self.place.arm is None else found.at_arm(self.place.arm)
+
+
 def contacts_of(
     subject: str, settings: list[str], libraries: list[str], method: str
-) -> tuple[dict[str, "Values"], list["Fault"]]:
+) -> tuple[dict[str, Shown], list["Fault"]]:
     """Contacts by name, and remarks on them; equal ones share an entry, named by the first and how many follow."""
+    from fairlead.analysis.treatments.in_scene import InScene, in_scene
+
     if _is_curve(subject):
+        if settings:
+            raise typer.BadParameter(
+                f"--set {settings[0]} is for a netlist. A curve has its numbers in its braces; write a netlist with a "
+                "Contact to set more."
+            )
         subject = f"{{{subject}}}" if subject.startswith("curve") else subject
-        return {subject: _of_curve(subject, libraries, method)}, []
+        return {subject: Shown(_of_curve(subject, libraries, method), InScene(None, None))}, []
     if subject in _treatments(libraries):
         raise typer.BadParameter(f"{subject} treats a curve: name that, and add --method {subject}.")
     if method:
@@ -89,21 +112,18 @@ def contacts_of(
 
     model = fairlead.load(subject, set=parse_settings(settings), libraries=libraries)
     found: dict[str, list[Any]] = {}
+    places = in_scene(model.flat, contacts(model))
     for instance in contacts(model):
-        found.setdefault(repr(instance.values), []).append(instance)
+        found.setdefault(f"{instance.values!r} {places[instance.path]}", []).append(instance)
     if not found:
         raise typer.BadParameter(f"{subject} has no contact.")
     named = {
-        each[0].path + (f" and {len(each) - 1} more like it" if len(each) > 1 else ""): each[0].values
+        each[0].path + (f" and {len(each) - 1} more like it" if len(each) > 1 else ""): Shown(
+            each[0].values, places[each[0].path]
+        )
         for each in found.values()
     }
     return named, too_wide(model.flat)
-
-
-def pressed(values: "Values") -> float | None:
-    """The normal force that stands for the input where nothing is connected; None when there is none."""
-    stands = values.type.declaration.inputs[values.type.answers.pressed_by].default
-    return values.path(stands) if isinstance(stands, str) else stands
 
 
 def _is_curve(subject: str) -> bool:

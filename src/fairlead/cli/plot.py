@@ -169,15 +169,13 @@ def _of_model(
     file = out or pathlib.Path("results") / name / f"{what.value}.png"
     file.parent.mkdir(parents=True, exist_ok=True)
     if what is What.FRICTION:
-        from fairlead.analysis.characteristic import characteristic
-        from fairlead.cli.friction import contacts_of, pressed
+        from fairlead.cli.friction import contacts_of
         from fairlead.report.friction_figure import draw_all
 
         contacts, _ = contacts_of(source, settings, libraries, "")
         drawn = {}
-        for names, values in contacts.items():
-            given = pressed(values)
-            found = characteristic(values, 1.0 if given is None else given)
+        for names, one in contacts.items():
+            found = one.characteristic(1.0)
             drawn[f"{names}: {found.label}"] = found
         return draw_all(drawn, file)
     from fairlead.analysis.cost.cost import cost

@@ -68,11 +68,11 @@ def _panel(ax: Axes, found: Characteristic) -> None:
     ax.xaxis.set_major_locator(FixedLocator(decades(*ax.get_xlim(), float(least) * 30)))
     ax.xaxis.set_minor_locator(NullLocator())
     ax.tick_params(axis="x", labelsize=7)
-    ax.set_xlabel("slip speed [m/s]")
-    ax.set_ylabel("friction [N]")
+    ax.set_xlabel(f"slip speed [{found.speed_unit}]")
+    ax.set_ylabel(f"friction [{found.force_unit}]")
     ax.axhline(0, color="0.7", linewidth=0.6)
-    for sign in (-1, 1):
-        ax.axhline(sign * found.breakaway, color="0.5", linewidth=0.8, linestyle=":")
+    for limit in (-found.breakaway_backward, found.breakaway):
+        ax.axhline(limit, color="0.5", linewidth=0.8, linestyle=":")
     ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=1.4)
 
 
@@ -87,10 +87,11 @@ def _draw_branches(ax: Axes, found: Characteristic) -> None:
             ax.plot(*whole, line, color=colour, label=label if label not in ax.get_legend_handles_labels()[1] else "_")
             if zone not in found.latched:
                 ax.axvspan(slip.min(), slip.max(), color=colour, alpha=0.06, linewidth=0)
+    held = [-found.capacity_backward, found.capacity]
     if found.holds:
-        ax.plot([0, 0], [-found.capacity, found.capacity], color="black", linewidth=2, label="held")
+        ax.plot([0, 0], held, color="black", linewidth=2, label="held")
     elif found.stiffness is not None:
-        ax.plot([0, 0], [-found.capacity, found.capacity], ":", color="black", label="presliding")
+        ax.plot([0, 0], held, ":", color="black", label="presliding")
 
 
 def _with_gaps(slip: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

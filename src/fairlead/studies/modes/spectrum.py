@@ -69,7 +69,8 @@ def modes_of(found: Linear) -> tuple[list[Mode], Zeros]:
     """The modes by falling period, and what is zero within rounding.
 
     Rounding of a matrix B changes an eigenvalue by |B| eps/|w'v|, with vectors of length 1; a double zero too, for its
-    two vectors are nearly orthogonal.
+    two vectors are nearly orthogonal. Where they are exactly orthogonal, as of two equal lags one after the other, the
+    quotient says nothing, and what is known of a double eigenvalue holds: rounding changes it by |B| sqrt(eps).
     """
     from scipy.linalg import eig, matrix_balance
 
@@ -78,8 +79,8 @@ def modes_of(found: Linear) -> tuple[list[Mode], Zeros]:
     balanced, scale = matrix_balance(found.matrix, permute=False)
     values, left, right = eig(balanced, left=True, right=True)
     scale, size = np.diag(scale)[:, None], max(float(np.linalg.norm(balanced)), found.pace)
-    parallel = np.maximum(np.abs((left.conj() * right).sum(axis=0)), np.finfo(float).tiny)
-    errors = ROUNDING * size / parallel
+    parallel = np.abs((left.conj() * right).sum(axis=0))
+    errors = ROUNDING * size / np.where(parallel > ROUNDING, parallel, math.sqrt(ROUNDING))
     left, right = found.onto.T @ (left / scale), found.basis @ (right * scale)
     zero = np.abs(values) <= errors
     wanted = np.flatnonzero(~zero & (values.imag >= 0))
