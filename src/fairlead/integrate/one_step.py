@@ -135,7 +135,10 @@ def piece_is_rough(m, h):
     run, point = m.run, m.point
     if length_of_piece(run, h) < smallest_step(run, point):
         return False
-    return is_rough(m.problem, run, point, m.events.guards, m.linear, h)
+    if is_rough(m.problem, run, point, m.events.guards, m.linear, h):
+        return True
+    at_stop = meets_stop(m.problem, m.events.guards)
+    return at_stop and not weighted_norm(point, point.at_error_vector) <= ROUGH_AT_STOP
 
 
 @compiled
@@ -161,8 +164,7 @@ def is_rough(problem, run, point, guards, linear, h):
     all stages may lie beside the rise, and the piece of the step up to rest misses it.
     """
     find_defect(problem, point, linear, h, run.cut_at)
-    most = ROUGH_AT_STOP if meets_stop(problem, guards) else ROUGH
-    return not weighted_norm(point, point.at_error_vector) <= most or limits_are_rough(problem, point, guards)
+    return not weighted_norm(point, point.at_error_vector) <= ROUGH or limits_are_rough(problem, point, guards)
 
 
 @compiled
