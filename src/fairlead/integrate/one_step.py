@@ -137,8 +137,8 @@ def piece_is_rough(m, h):
         return False
     if is_rough(m.problem, run, point, m.events.guards, m.linear, h):
         return True
-    at_stop = meets_stop(m.problem, m.events.guards)
-    return at_stop and not weighted_norm(point, point.at_error_vector) <= ROUGH_AT_STOP
+    met = meets_stop(m.problem, m.events.guards)
+    return met and not weighted_norm(point, point.at_error_vector) <= ROUGH_AT_STOP
 
 
 @compiled
