@@ -58,7 +58,7 @@ def study(folder: Path, samples: int, processes: int | None = None) -> pandas.Da
 def pictures(folder: Path, into: Path) -> list[Path]:
     """Tornado and failure map of the slip, from the table in a folder."""
     with tempfile.TemporaryDirectory() as drawn:
-        made = {file.stem: file.read_bytes() for file in draw(Rows.read(folder), "slip", Path(drawn))}
+        made = {file.stem: file.read_bytes() for file in draw(Rows.read(folder), "slip", Path(drawn))[0]}
     files = [into / f"route_{name}.png" for name in ("tornado", "failures")]
     for file in files:
         file.write_bytes(made[file.stem.removeprefix("route_")])
