@@ -3,7 +3,8 @@
 from fairlead.component import Component, Input, Law, Output, Parameter, State, Zones, guard, least, zone
 
 ROOM = 1e-6
-"""Share of a limit, or of 0.1, by which a signal that rests there may be short of it."""
+"""Share of a limit, and of 0.1, by which a signal that rests there may be short of it. It came to rest within 1e-9,
+what a guard is known to; chosen is a thousand times that, so that the two never send to each other."""
 
 
 class Integrator(Component):

@@ -99,3 +99,28 @@ def test_a_switch_is_felt_through_laws_without_inertia(simulate, accuracy):
     rising, falling = most * (1 - math.exp(-rate * (1.0 - closed))), at_opening * math.exp(-3.0 * (2.5 - opened))
     assert result.at("coil.current", 1.0) == pytest.approx(rising, abs=10 * accuracy)
     assert result.at("coil.current", 2.5) == pytest.approx(falling, abs=10 * accuracy)
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-5])
+def test_a_relay_that_reads_a_force_switches_where_the_force_is_there(simulate, accuracy):
+    """A spring of 30 N/m behind a sensor swings a body about -+1/30 m: force 3 cos(omega t) and so on, by halves."""
+    parts = {
+        "relay": "{type: Relay, upper: 2.5, lower: -2.5, on: -1, off: 1}", "push": "{type: ForceActuator}",
+        "cell": "{type: ForceSensor}", "end": "{type: Mass, mass: 0.25 kg, position: 0.1 m}",
+        "body": "{type: Mass, mass: 1 kg, position: 0.1 m}", "spring": "{type: Spring, stiffness: 30 N/m}",
+        "wall": "{type: Ground}",
+    }  # fmt: skip
+    joints = [
+        "[wall.flange, spring.a]", "[spring.b, cell.a, end.flange]", "[cell.b, body.flange, push.flange]",
+        "[cell.tension, relay.value]", "[relay.signal, push.force]",
+    ]  # fmt: skip
+    text = scene(parts, joints) + RUN % "body.x, body.v"
+    found, exact = (
+        simulate(text, **{"run.engine": engine, "run.accuracy": fine})
+        for engine, fine in (("stepping", accuracy), ("rodas", 1e-8))
+    )
+    told = [[event.t for event in run.events if event.component == "relay"] for run in (found, exact)]
+    assert len(told[1]) >= 3
+    assert told[0] == pytest.approx(told[1], abs=accuracy)
+    for t in (0.5, 1.1, 2.3, 3.0):
+        assert found.at("body.x", t) == pytest.approx(exact.at("body.x", t), abs=accuracy)

@@ -22,7 +22,7 @@ from fairlead.component.keys import PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
-from fairlead.system.active.timed_limits import switched_limits, timed_limits, timed_rows
+from fairlead.system.active.timed_limits import latches_on_means, switched_limits, timed_limits, timed_rows
 from fairlead.system.compiled.named_parts import (
     at_nodes_without_inertia,
     between_mass_and_none,
@@ -166,6 +166,9 @@ TABLE: tuple[Class, ...] = (
           "the force limit of {} jumps with a signal that switches, at an instant inside a step", _switched),
     Class("contacts that creep or bend at rest and have zones (binding)", LANDED,
           "the laws of {} turn within a slip of nearly nothing", _bending),
+    Class("relays, state machines and the like that read forces or what else has no rate", LANDED,
+          "{} reads what has no rate, of which stepping knows means over steps",
+          lambda system, _: latches_on_means(system)),
     Class("contacts with a zone of their own from break-away until they slip faster than a speed (karnopp)", LANDED,
           "{} have a zone that lasts for a moment after they break away", _latched),
     Class("friction that falls as a contact lets go, of contacts that hold a body to motions that are given and move "

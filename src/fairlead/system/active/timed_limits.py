@@ -76,6 +76,21 @@ def timed_rows(system: System, start: float, stop: float) -> Booleans:
     return found[:-1]
 
 
+def latches_on_means(system: System) -> list[str]:
+    """Paths of parts that remember (a relay) and read, at once or by signals, what has no rate: forces and the like."""
+    at_once = np.zeros(len(system.memory["z"]), dtype=bool)
+    at_once[np.flatnonzero(~system.differential)] = True
+    nothing = [np.zeros(block.count, dtype=bool) for block in system.blocks]
+    varies = _spread(system, nothing, at_once, states=False)
+    found: list[str] = []
+    for block, beats in zip(system.blocks, nothing, strict=True):
+        s = block.kernel.structure
+        tells = not any(key(target).kind == PORT for target in s.targets)
+        reached = _reached(block, beats, varies, _read_by_latches(s) if tells else set())
+        found += [block.instances[i].path for i in np.flatnonzero(reached)]
+    return found
+
+
 def _that_follow(system: System, beating: list[Booleans], varies: Booleans) -> list[str]:
     """Components whose limit follows what beats in a law, or what lies at these places in z."""
     varies = _spread(system, beating, varies)
@@ -161,6 +176,14 @@ def _read_by_limits(s: Structure) -> set[int]:
             if guard["limits"]:
                 found |= {j for member in members for sum_ in member["sums"] for j, _ in sum_}
     return found - forces
+
+
+def _read_by_latches(s: Structure) -> set[int]:
+    """Inputs that guards depend on which remember that they fired."""
+    return {
+        j for zone in s.zones for guard, members in zip(s.guards[zone], _of(s, zone)["guards"], strict=True)
+        if guard["latches"] for member in members for sum_ in member["sums"] for j, _ in sum_
+    }  # fmt: skip
 
 
 def _of(s: Structure, zone: str) -> dict[str, Any]:
