@@ -120,7 +120,7 @@ def sentence_of(status: Status, memory: Memory, problem: Problem, run: Run, culp
         ),
         Status.CHATTER: (
             f"{when}: {names} switches to and fro faster than its dwell of {dwell:.2g} s. Its zones "
-            "have no consistent choice at this point; add hysteresis, or hold it (on_chatter: hold)."
+            "have no consistent choice at this point; add hysteresis, or hold it (run.chatter: hold)."
         ),
         Status.GIVEN_APART: (
             f"{when}: motions that are given move apart what {names} and other parts without give hold together, and "

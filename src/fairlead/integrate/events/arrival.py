@@ -28,6 +28,7 @@ from fairlead.integrate.codes import (
     TOO_MANY_PASSES,
     TRY,
 )
+from fairlead.integrate.events.chatter import HOLD, hold_what_circles
 from fairlead.integrate.events.consistent import correct_forces, keep_positions
 from fairlead.integrate.events.first_sample import settle_for_sample, take_first_sample
 from fairlead.integrate.events.given_apart import moves_apart
@@ -293,7 +294,10 @@ def settle_here(m):
     if status == NOT_CONSISTENT:
         return not_finite_here(problem, run, point, INCONSISTENT)
     if status == TOO_MANY_PASSES:
-        return NOT_SETTLED
+        if run.on_chatter != HOLD or not hold_what_circles(m):
+            return NOT_SETTLED
+        begin_settling(problem, run, point, events)
+        return GO_ON
     if status == RUBBED:
         return REBOUND_RUBS
     if status == APART:

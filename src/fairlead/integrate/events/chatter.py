@@ -13,6 +13,7 @@ from __future__ import annotations
 from math import inf
 
 from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.record.rows import keep_last_event
 
 CHATTER_STREAK = 8
 """Toggles in a row, each within a dwell of the one before, that make a machine chatter."""
@@ -106,6 +107,33 @@ def watch_chatter(m, z):
             elif run.on_chatter == STOP:
                 m.linear.factors.culprit = z
                 run.stop_asked = 1
+
+
+@compiled
+def hold_what_circles(m):
+    """Hold for a dwell the machines that went on switching in a settlement without end; True if there are such.
+
+    A comparator without hysteresis whose output drives its input back has no zone to rest in at its level: no time
+    passes between its switches, so that none of them is within a dwell of the one before. They count as one switch, or
+    as none.
+    """
+    run, settling = m.run, m.events.settling
+    nz, found = settling.n_machines, False
+    zones, chatters = indices(settling.at_zones, nz), indices(settling.at_chatters, nz)
+    until = reals(m.events.guards.at_blocked_until, nz)
+    for z in range(nz):
+        circles = False
+        for k in range(settling.passes // 2, settling.passes):
+            circles = circles or indices(settling.at_zones_history + 8 * k * nz, nz)[z] != zones[z]
+        if circles and until[z] <= m.point.t:
+            block(m.problem, run, m.point, m.events, z)
+            gone = keep_last_event(m.point, m.recorder, z, indices(settling.at_zones_history, nz)[z])
+            settling.switches -= gone
+            indices(settling.at_switches_by_machine, nz)[z] -= gone
+            chatters[z] += 1
+            found = True
+    m.events.guards.n_fired = 0
+    return found
 
 
 @compiled

@@ -40,6 +40,35 @@ def write_event(point, settling, recorder, machine, before, after, guard):
 
 
 @compiled
+def keep_last_event(point, recorder, machine, before):
+    """Of the changes of a machine at the point keep the last, as one from the zone `before`; none if that is its zone.
+
+    Returns how many go. What has been emptied from the buffer meanwhile stays.
+    """
+    times = reals(recorder.at_event_t, recorder.event_capacity)
+    machines = indices(recorder.at_event_machine, recorder.event_capacity)
+    befores = indices(recorder.at_event_before, recorder.event_capacity)
+    afters = indices(recorder.at_event_after, recorder.event_capacity)
+    guards = indices(recorder.at_event_guard, recorder.event_capacity)
+    positions = indices(recorder.at_event_position, recorder.event_capacity)
+    last = -1
+    for k in range(recorder.events):
+        last = k if machines[k] == machine and times[k] == point.t else last
+    kept = 0
+    for k in range(recorder.events):
+        mine = machines[k] == machine and times[k] == point.t
+        if mine and (k != last or afters[k] == before):
+            continue
+        times[kept], machines[kept], guards[kept], positions[kept] = times[k], machines[k], guards[k], positions[k]
+        befores[kept], afters[kept] = before if mine else befores[k], afters[k]
+        kept += 1
+    gone = recorder.events - kept
+    recorder.total_events -= gone
+    recorder.events = kept
+    return gone
+
+
+@compiled
 def there_is_room(problem, recorder):
     """True if the next pass of a settlement fits whatever happens in it, and the rows around it."""
     events = recorder.events + problem.n_machines + problem.n_guards
