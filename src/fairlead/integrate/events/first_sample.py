@@ -15,15 +15,16 @@ from fairlead.integrate.codes import NONE_DUE, SETTLING_FOR_IT
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, reals
 
-JUST_BEFORE = 1e-15
-"""Share of the span that lies between the start and what is before it: no more than time resolves."""
+JUST_BEFORE, OF_TIME = 1e-15, 8e-15
+"""Shares of the span and of the time of the start that lie between it and what is before it: no more than time
+resolves, and more than the few digits of the last place within which what is due counts as due."""
 
 
 @compiled
 def settle_for_sample(problem, run, point, events):
     """Keep what is given at the start, and have it settled as it is just before."""
     settling = events.settling
-    before = point.t - JUST_BEFORE * max(abs(point.t), run.stop - run.start)
+    before = point.t - max(JUST_BEFORE * (run.stop - run.start), OF_TIME * abs(point.t))
     at_time_at(problem.call_at_time, (problem.context, before, point.at_y))
     copy(reals(point.at_y, problem.n), reals(point.at_begun, problem.n))
     copy(indices(problem.at_zones, problem.n_machines), indices(settling.at_zones_given, problem.n_machines))
