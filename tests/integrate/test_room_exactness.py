@@ -66,30 +66,41 @@ def equations(J, field, meters=()):
     return at, fields(at, n, rhs=(called, n), forces=(called, n))
 
 
+def factor(z, locates):
+    """What a step multiplies by: right to order three, and to order four where steps end at every switch."""
+    w = z / (1 - z / 2)
+    return (1 + z / 2) / (1 - z / 2) - w**3 / 12 + locates * w**4 / 24
+
+
+@pytest.mark.parametrize("locates", [0, 1])
 @pytest.mark.parametrize("z", [-1e6, -10.0, -2.0, -0.3, 0.3, 0.9])
-def test_a_step_multiplies_by_what_the_page_says_and_what_is_stiff_by_minus_a_third(z):
-    """(1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12."""
+def test_a_step_multiplies_by_what_the_page_says_and_what_is_stiff_by_a_third(z, locates):
     rate = z / H
     at, _kept = equations(np.array([[rate]]), lambda _t, y: rate * y)
+    at.number["locates"] = locates
     at.array["y"][:] = 3.0
     at.array["y_end"][:] = 3.0 * (1 + z / 2) / (1 - z / 2)  # the midpoint rule
     refined()(at, H)
     found = at.array["y_end"][0] / 3.0
-    assert found == pytest.approx((1 + z / 2) / (1 - z / 2) - (z / (1 - z / 2)) ** 3 / 12, rel=1e-9)
+    assert found == pytest.approx(factor(z, locates), rel=1e-9)
     if z < -1e5:
-        assert found == pytest.approx(-1 / 3, abs=1e-4)
+        assert found == pytest.approx(1 / 3 if locates else -1 / 3, abs=1e-4)
+    if abs(z) < 0.5:
+        assert abs(found - np.exp(z)) < (0.03 * abs(z) ** 5 if locates else 0.1 * abs(z) ** 4)
 
 
-def test_a_wave_is_multiplied_by_the_same_function_of_its_frequency():
+@pytest.mark.parametrize("locates", [0, 1])
+def test_a_wave_is_multiplied_by_the_same_function_of_its_frequency(locates):
     z = 0.3j
     omega = 0.3 / H
     J = np.array([[0.0, 1.0], [-(omega**2), 0.0]])
     at, _kept = equations(J, lambda _t, y: J @ y)
+    at.number["locates"] = locates
     start = np.array([1.0, 0.4])
     middle = np.linalg.solve(np.eye(2) - H / 2 * J, np.eye(2))
     at.array["y"][:], at.array["y_end"][:] = start, middle @ (np.eye(2) + H / 2 * J) @ start
     refined()(at, H)
-    by = (1 + z / 2) / (1 - z / 2) - (z / (1 - z / 2)) ** 3 / 12
+    by = factor(z, locates)
     amplitude = (start[0] - 1j * start[1] / omega) * by  # of x = Re(amplitude e^(i omega t))
     np.testing.assert_allclose(at.array["y_end"], [amplitude.real, -omega * amplitude.imag], rtol=1e-12)
 
@@ -103,6 +114,32 @@ def test_a_force_given_as_a_cubic_of_time_is_integrated_exactly(seed):
     at.array["y_end"][:] = H * force(0.7 + H / 2)
     refined()(at, H)
     assert at.array["y_end"][0] == pytest.approx(force.integ()(0.7 + H) - force.integ()(0.7), rel=1e-12)
+
+
+@pytest.mark.parametrize("locates", [0, 1])
+def test_no_step_makes_anything_grow_that_does_not(locates):
+    """|factor| <= 1 in the left half plane: on its boundary, and so inside (the maximum principle)."""
+    z = 1j * np.tan(np.linspace(-np.pi / 2, np.pi / 2, 2001)[1:-1]) * 2
+    assert abs(factor(z, locates)).max() <= 1 + 1e-12
+
+
+@pytest.mark.parametrize(("locates", "order"), [(0, 3), (1, 4)])
+def test_a_load_that_changes_slowly_and_acts_through_something_stiff(locates, order):
+    """y' = a (y - sin t), without what decays: half a step misses 2^(order + 1) times less of it."""
+    rate = -8.0
+
+    def exact(t):
+        return (rate * rate * np.sin(t) + rate * np.cos(t)) / (1 + rate * rate)
+
+    def missed(h):
+        at, _kept = equations(np.array([[rate]]), lambda t, y: rate * (y - np.sin(t)))
+        at.number["locates"] = locates
+        at.array["y"][:], z = exact(0.0), rate * h
+        at.array["y_end"][:] = ((1 + z / 2) * exact(0.0) - z * np.sin(h / 2)) / (1 - z / 2)  # the midpoint rule
+        refined()(at, h)
+        return abs(at.array["y_end"][0] - exact(h))
+
+    assert np.log2(missed(0.02) / missed(0.01)) == pytest.approx(order + 1, abs=0.3)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -1,4 +1,4 @@
-"""What makes a step of order three: its end is moved by the error of the midpoint rule, found with its own factors.
+"""What makes a step of order three, or four: its end is moved by the error of the midpoint rule, by its own factors.
 
 The step solves M (y1 - y0)/h = f(u), u = (y0 + y1)/2. The formula of Lobatto, of order four, has instead
 
@@ -19,9 +19,22 @@ that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/
 by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away, where the
 midpoint rule leaves it ringing for ever; a wave of h omega = 0.3 gets out of phase by 7e-5 in a step for 2e-3. Where
 friction falls and switches are inside steps (`damps`), a third solve (`damp_end`) adds w^4/48 with w = z/(1 - z/2): the
-factor is then zero where z is large (jump_inside.py). (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra,
-Numer. Math. 8:376, 1966. With the matrix of the step in place of differences over several steps, so that it survives a
-switch: of our own.)
+factor is then zero where z is large (jump_inside.py).
+
+The solve for e is a filter, (1 - h J/(2 M))^-1: e has a share of h J/2 too much. What is driven by a load that changes
+slowly, through something stiff for which the step is still short, has a small y''' and a large J y'', and a step misses
+h J/2 of h J y''/12 that no difference of its ends sees. Where steps end at every switch a third solve takes what the
+filter has added away, to first order (`sharpen`):
+
+    W (g/2) = J e/2 + 4 c            e <- e - g
+
+The factor is then
+
+    (1 + z/2)/(1 - z/2) - w^3/12 + w^4/24 = e^z + O(z^5)        w = z/(1 - z/2)
+
+never more than one in the left half plane either, and 1/3 where z is large. (Deferred correction: Fox, Proc. R. Soc. A
+190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of the step in place of differences over several
+steps, so that it survives a switch: of our own.)
 """
 
 from __future__ import annotations
@@ -59,6 +72,8 @@ def move_by_error(problem, point, linear, stepping, h):
     if exchange.driven == 1:
         follow_surfaces(problem, point, exchange, h)
     solve_motion(linear, point.at_b)
+    if stepping.rule.locates == 1:
+        sharpen(problem, point, linear, exchange)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
         twelfth[k] = b[k] / 6.0 if moves else 0.0
@@ -75,6 +90,26 @@ def move_by_error(problem, point, linear, stepping, h):
     for k in range(n):
         if moving[k] == 1 and quadrature[k] == 0:
             y_end[k] += 2.0 * b[k]
+
+
+@compiled
+def sharpen(problem, point, linear, exchange):
+    """Take from e/2 in b what the filter of its solve has too much, to first order: W (g/2) = J e/2 + 4 c."""
+    n = problem.n
+    b, half, chord_defect = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
+    moving, kept = indices(problem.at_differential, n), reals(point.at_u, n)
+    for k in range(n):
+        kept[k] = b[k]
+        half[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
+        b[k] = 4.0 * chord_defect[k]
+    add_jacobian_times(linear.matrices, 1.0, point.at_v, point.at_b)
+    for k in range(n):
+        if holds[k] == 1 or quadrature[k] == 1:
+            b[k] = 0.0
+    solve_motion(linear, point.at_b)
+    for k in range(n):
+        b[k] = kept[k] - b[k]
 
 
 @compiled
