@@ -39,10 +39,25 @@ def mark_stiff(problem, matrices, recorder, h):
     values = reals(matrices.at_jacobian, matrices.n_jacobian)
     for k in range(problem.n):
         stiff[k] = 0
+    for k in range(problem.n):
         if balances[k] > 0 and (balances[k] == 1 or means) and values[slope[k]] != 0.0:
             stiff[k] = 1
             found = OF_BALANCES
         elif position[k] >= 0 and follows_within(matrices, k, h):
             stiff[k] = 1
             found = max(found, OF_SPEEDS)
+            mark_beside(problem, matrices, stiff, k, h)
     return found
+
+
+@compiled
+def mark_beside(problem, matrices, stiff, k, h):
+    """Mark the speeds that the law of unknown k moves within the step too: what they are decides where it balances."""
+    starts = indices(matrices.at_jacobian_starts, matrices.n + 1)
+    rows = indices(matrices.at_jacobian_rows, matrices.n_jacobian)
+    values, masses = reals(matrices.at_jacobian, matrices.n_jacobian), reals(matrices.at_mass, matrices.n_mass)
+    position, diagonal = indices(problem.at_position_of, problem.n), indices(matrices.at_diagonal_mass, matrices.n)
+    for p in range(starts[k], starts[k + 1]):
+        j = rows[p]
+        if position[j] >= 0 and diagonal[j] >= 0 and abs(values[p]) * h > masses[diagonal[j]]:
+            stiff[j] = 1

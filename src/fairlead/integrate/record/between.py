@@ -100,7 +100,8 @@ def balance_stiff(m, t, s, at_y):
     nothing of the law: nothing as a speed, and much as a force. y' is that of the dense output, and what moves by d
     gains r d in it, with W = r M - J: bodies that follow each other would else show the error of their acceleration.
     How far to go along the move that the factors of the step give follows from the residuals before and after it. What
-    has no inertia is moved together, and further (`balance_on`).
+    has no inertia is moved together, and further (`balance_on`). A move is that of all bodies, also of those that do
+    not follow within the step: a light one beside them balances where they are.
     """
     problem, point = m.problem, m.point
     n, per_step, gain = problem.n, 1.0 / m.run.h, m.linear.factors.mass_factor
@@ -111,6 +112,7 @@ def balance_stiff(m, t, s, at_y):
     )  # fmt: skip
     stiff, differential = indices(m.recorder.at_is_stiff, n), indices(problem.at_differential, n)
     weight, relative = reals(point.at_weight, n), reals(point.at_relative, n)
+    position = indices(problem.at_position_of, n)
     for k in range(n):
         inner = D[k] + s * (D[n + k] + s * D[2 * n + k])
         inner_slope = D[n + k] + 2.0 * s * D[2 * n + k]
@@ -125,10 +127,11 @@ def balance_stiff(m, t, s, at_y):
     solve_motion(m.linear, point.at_b)
     for k in range(n):
         inert[k] = 0.0
-        if stiff[k] == 1:
+        if stiff[k] == 1 or position[k] >= 0:
             y[k] += move[k]
             minus_rate[k] -= gain * move[k]
-            before[k] = before[k] if differential[k] == 1 else move[k]
+        if stiff[k] == 1 and differential[k] == 0:
+            before[k] = move[k]
     add_mass_times(m.linear.matrices, point.at_v, point.at_x)
     field_at(problem.call_forces, (problem.context, t, at_y, point.at_f))
     problem.rhs += 2
