@@ -21,7 +21,7 @@ from fairlead.component import (
 )  # fmt: skip
 
 REFERENCE = 1e5  # Pa; the share of air in the oil is told at this pressure
-LAG = 1e-6  # s; a pressure that is followed rather than equal is off by its rate times this, some 100 Pa
+LAG = 1e-10  # s; a pressure that is followed rather than equal is off by its rate times this
 
 
 class Enclosed(Component, abstract=True):
