@@ -58,6 +58,10 @@ class Facts(Protocol):
         """
 
     @property
+    def least_guard(self) -> Integers:
+        """[ng]: 1 for guards that are the least of several values, which all must have risen (edges.py)."""
+
+    @property
     def blow_guard(self) -> Integers:
         """[ng]: 1 for guards that an impulse asks with the speeds before (impulse_zones.py), 0 for others.
 
@@ -239,6 +243,11 @@ class Plain:
     @property
     def kink_guard(self) -> Integers:
         """None is."""
+        return np.zeros(len(self.guard_machine), dtype=np.int64)
+
+    @property
+    def least_guard(self) -> Integers:
+        """None is known to be."""
         return np.zeros(len(self.guard_machine), dtype=np.int64)
 
     @property

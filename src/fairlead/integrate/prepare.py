@@ -68,7 +68,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_algebraic": int(n - np.count_nonzero(problem.differential)), "n_moves": len(problem.moves),
         "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)), "n_met_guards": len(problem.met_guard),
         "n_balanced": len(problem.balanced), "n_light": len(light),
-        "n_swings": problem.n_swings, "n_pressing": len(problem.pressing),
+        "n_swings": problem.n_swings, "n_pressing": len(problem.pressing), "n_least": int(np.sum(problem.least_guard)),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_machines": nz, "n_jacobian": len(problem.pattern.rows),
@@ -86,6 +86,7 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "guard_machine": problem.guard_machine,
         "kink_guard": np.asarray(problem.kink_guard, np.int64),
         "blow_guard": np.asarray(problem.blow_guard, np.int64),
+        "least_guard": np.asarray(problem.least_guard, np.int64),
         "latch_guard": np.asarray(problem.latch_guard, np.int64),
         "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),

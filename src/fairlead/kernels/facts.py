@@ -281,4 +281,5 @@ def _describe(guard: TracedGuard, facts: KernelFacts, zone: TracedZone) -> dict[
     return {
         "name": guard.name, "to": to, "unit": guard.unit, "machine": machine, "step": guard.step,
         "limits": bounds_what_holds(guard, zone), "latches": latches(guard, facts.traced),
+        "values": len(guard.values),
     }  # fmt: skip

@@ -104,6 +104,16 @@ def _latched(system: System, settings: RunSettings) -> Iterator[str]:
             yield from (one.path for one in block.instances)
 
 
+def _tripped(system: System, settings: RunSettings) -> Iterator[str]:
+    """Parts that hold nothing and stay for good in a zone to which several values lead that all must have risen."""
+    for block in system.blocks:
+        s = block.kernel.structure
+        ways = list(s.guards.values())
+        ends = [not any(guard["name"] for guard in of_zone) for of_zone in ways]
+        if not s.holds and any(g["values"] > 1 and ends[g["to"]] for of_zone in ways for g in of_zone):
+            yield from (one.path for one in block.instances)
+
+
 def _carried(system: System, settings: RunSettings) -> Iterator[str]:
     """Nodes without inertia that feel a motion given in time."""
     return (unknown.name for unknown in _balancing(system, settings) if unknown.kind == "rate")
@@ -171,6 +181,8 @@ TABLE: tuple[Class, ...] = (
           lambda system, _: latches_on_means(system)),
     Class("contacts with a zone of their own from break-away until they slip faster than a speed (karnopp)", LANDED,
           "{} have a zone that lasts for a moment after they break away", _latched),
+    Class("parts that hold nothing and trip for good where several values have risen at once", LANDED,
+          "{} trips where several values have risen at once, which may be for a moment inside a step", _tripped),
     Class("friction that falls as a contact lets go, of contacts that hold a body to motions that are given and move "
           "apart", LANDED, "which of {} lets go is decided where what they hold to moves apart", _apart),
     Class("limits of friction given in time that turn less often", INSIDE,

@@ -1,10 +1,10 @@
 """Where in a trial step the first guard fires.
 
-Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1;
-exactly zero at t0 does not fire. A guard that starts at zero and dips below it counts as below from
-there on. Double crossing: below zero at both ends, where the cubic through ends and slopes has a top between them:
-it is tested (bumps.py), as where a force that presses passes through zero (corners.py). Companion rule: a guard above
-its tolerance that never was below zero means that the zones at t0 were wrong (the caller settles from there).
+Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1; exactly zero at t0 does
+not fire. A guard that starts at zero and dips below it counts as below from there on. Double crossing: below zero at
+both ends, where the cubic through ends and slopes has a top between them: it is tested (bumps.py; edges.py where it is
+the least of several values), as where a force that presses passes through zero (corners.py). Companion rule: a guard
+above its tolerance that never was below zero means that the zones at t0 were wrong (the caller settles from there).
 The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
 further is held (limits.py).
 Zero at t0 is what a settlement counts as at a limit (limits.AT_LIMIT): the slip of a contact that has just broken
@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from fairlead.integrate.events.bumps import NEAR, find_earliest_bump
 from fairlead.integrate.events.corners import find_corner
+from fairlead.integrate.events.edges import find_edge
 from fairlead.integrate.events.guards import guards_at
 from fairlead.integrate.events.limits import AT_LIMIT, weigh_limits
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
@@ -50,6 +51,8 @@ def find_first_crossing(m, h):
             since[i] = NEAR if left[i] < 0.0 else 0.0
     copy(end, right)
     bump = find_earliest_bump(m, h)
+    if m.problem.n_least > 0:
+        bump = find_edge(m, h, bump)
     if m.problem.n_pressing > 0:
         bump = find_corner(m, h, bump)
     if bump < 1.0:

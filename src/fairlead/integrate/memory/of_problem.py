@@ -25,6 +25,8 @@ PROBLEM = Struct(
         "n_moves", "n_accelerated",
         # guards of places at which stops are met
         "n_met_guards",
+        # guards that are the least of several values
+        "n_least",
         # what sines are taken of that no error of a step knows
         "n_swings",
         # rows whose force other laws read
@@ -62,7 +64,7 @@ PROBLEM = Struct(
         # the speed of an acceleration that is an unknown; of others they themselves
         "speed_of": "n", "differential": "n", "quadrature": "n", "takes_impulse": "n",
         # the position of each speed (-1: none)
-        "position_of": "n", "kink_guard": "n_guards", "may_hold": "n_guards",
+        "position_of": "n", "kink_guard": "n_guards", "least_guard": "n_guards", "may_hold": "n_guards",
         "limit_guard": "n_guards", "bounded_row": "n_guards", "blow_guard": "n_guards", "latch_guard": "n_guards",
         # by row who decides whether it holds, the number of the circle in which forces are shared (0: none), and with
         # which sign a force there would grow with the slip

@@ -197,6 +197,14 @@ def latches(blocks: Sequence[Block]) -> Integers:
     return np.array(found, dtype=np.int64)
 
 
+def least(blocks: Sequence[Block]) -> Integers:
+    """1 for every guard that is the least of several values, in any zone."""
+    found: list[bool] = []
+    for block in blocks:
+        found += [any(g["values"] > 1 for g in slot) for slot in _sharing(block)] * block.count
+    return np.array(found, dtype=np.int64)
+
+
 def told(blocks: Sequence[Block], machines: int) -> Memory:
     """Guards of classes that only tell signals, which samples ask for; and room to follow them (`settle_told`)."""
     found: list[bool] = []
