@@ -262,6 +262,15 @@ def test_an_engine_that_does_not_run_a_model_refuses_the_case(model: str) -> Non
     assert "Take run.engine: rodas" in row.sentence
 
 
+@pytest.mark.parametrize(("value", "word"), [("high", "high"), ([1.0, 2.0], "list of 2"), (2j, "2j")])
+def test_a_figure_whose_function_returns_no_number_says_which_and_what(value: object, word: str) -> None:
+    row = Cases(fairlead.load("belt", set={"run.stop": "0.1 s"}), {"own": lambda result: value}).row({})
+    assert row.status == "error"
+    assert row.sentence.startswith("own: its function returns ")
+    assert word in row.sentence
+    assert "no number" in row.sentence
+
+
 def test_a_figure_that_raises_is_an_error_and_no_refusal() -> None:
     def wants_a_folder(result):
         return len(str(result.folder))

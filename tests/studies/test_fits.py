@@ -11,10 +11,11 @@ from fairlead.cli import app
 from fairlead.errors import ModelError
 from fairlead.studies.differences.steps import difference, noise_floor, steps
 from fairlead.studies.fits.features import read_feature
-from fairlead.studies.fits.fit_file import read_fit
+from fairlead.studies.fits.fit_file import Law, read_fit
+from fairlead.studies.fits.laws import Judged, better_everywhere
 from fairlead.studies.fits.problem import records_of
-from fairlead.studies.fits.report import lines_of, record_of
-from fairlead.studies.fits.search import fit, prepared
+from fairlead.studies.fits.report import law_lines, lines_of, record_of
+from fairlead.studies.fits.search import Error, fit, prepared
 
 STIFFNESS, MASS, FRICTION, BEGIN = 400.0, 2.0, 1.2, 0.1
 SCENE = """schema: 1
@@ -171,6 +172,31 @@ def test_the_command_writes_a_page_and_compares_laws_by_what_was_left_out(tmp_pa
     assert told["comparison"]["preferred"] == "pad.method=hold"  # tanh creeps back where hold stays
     assert told["parameters"]["mu"]["value"] == pytest.approx(FRICTION / 10, rel=1e-3)
     assert (tmp_path / "made" / "fit.html").read_text().count("data:image/png") == 2
+
+
+@pytest.mark.parametrize(
+    ("errors", "said", "better"),
+    [
+        ({"one": (3.0, 4.0), "two": (2.0, 3.0)}, "The data prefer two by its errors on what was left out.", ["two"]),
+        ({"one": (3.0, 4.0), "two": (2.999, 3.998)}, "The data do not tell one and two apart: ", []),
+        ({"one": (3.0, 4.0), "two": (2.0, 3.0), "three": (2.01, 3.01)}, "tell two and three apart", ["two", "three"]),
+        ({"one": (3.0, 4.0), "two": (2.0, 9.0)}, "The data prefer one by its errors", []),
+        ({"one": (3.0, 4.0), "two": (2.0, None)}, "The data prefer one by its errors", []),
+        ({"one": (3.0, None), "two": (2.0, 9.0)}, "The data prefer two by its errors", ["two"]),
+        ({"one": (3.0, None), "two": (None, 9.0)}, "No law is preferred, since none foretells every record", []),
+    ],
+)
+def test_a_law_is_preferred_by_more_than_two_equal_runs_differ(errors, said, better) -> None:
+    """By the sum over records of errors as shares of the first law's; what did not finish has no error."""
+    judged = [
+        Judged(Law(name), left_out={
+            record: {} if mean is None else {"x": Error(mean, mean)}
+            for record, mean in zip(("first", "second"), pair, strict=True)
+        })
+        for name, pair in errors.items()
+    ]  # fmt: skip
+    assert any(said in line for line in law_lines(judged))
+    assert better_everywhere(judged) == better
 
 
 def test_a_robust_loss_lets_go_of_outliers(tmp_path) -> None:

@@ -201,6 +201,21 @@ def test_an_instant_of_a_run_has_the_zones_of_that_instant() -> None:
     assert frequencies(slipping) == pytest.approx([10 / (2 * math.pi)])
 
 
+def test_a_pattern_is_for_those_of_its_parts_that_have_the_zone() -> None:
+    """A line is hoses, joints and contacts: what may hold is held, one of them slides, a typing error is told."""
+    model = fairlead.load("single_bend")
+    held = fairlead.modes(model, zones={"line.*": "held"})
+    contacts = [name for name in held.zones if name.startswith(("line.outer[", "line.inner["))]
+    assert len(contacts) > 10
+    assert {held.zones[name] for name in contacts} == {"held"}
+    assert len(held) == 0  # every node of hose and core is in a contact that holds
+    assert len(fairlead.modes(model, zones={"line.*": "held", contacts[5]: "sliding"})) == 1
+    with pytest.raises(ModelError, match=r"line\.\* has no zone hold\. Did you mean held"):
+        fairlead.modes(model, zones={"line.*": "hold"})
+    with pytest.raises(ModelError, match=r"line\.hose\[1\] has no zone held\.\n"):  # and not that held was meant
+        fairlead.modes(model, zones={"line.hose[1]": "held"})
+
+
 def test_every_mistake_of_what_is_asked_comes_at_once_with_a_suggestion(tmp_path) -> None:
     with pytest.raises(ModelError) as raised:
         fairlead.modes(made(tmp_path, TWO), zones={"cluch": "held", "clutch": "slipping"}, acting="onne", out="two.y")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.cases.figures import Figure
+from fairlead.errors import FairleadError, shown
 from fairlead.patterns import matcher, picked
 from fairlead.result import Result
 from fairlead.results.curves import INSIDE
@@ -20,10 +21,17 @@ POINTS = {1: 3, 2: 5}
 
 
 def value_of(figure: Figure, result: Result) -> float:
-    """The figure, in its unit; NaN for what did not happen. Raises what a function of the user raises."""
-    if figure.function is not None:
-        return float(figure.function(result))
-    return float(_TOLD[figure.kind](figure, result))
+    """The figure, in its unit; NaN for what did not happen.
+
+    Raises what a function of the user raises, and FairleadError where it returns no number.
+    """
+    if figure.function is None:
+        return float(_TOLD[figure.kind](figure, result))
+    found = figure.function(result)
+    try:
+        return float(found)
+    except (TypeError, ValueError, OverflowError):
+        raise FairleadError(f"{figure.name}: its function returns {shown(found)}, which is no number.") from None
 
 
 def mean_of(result: Result, name: str, span: tuple[float, ...], power: int = 1) -> float:

@@ -6,6 +6,7 @@ is not fitted worse than that; with a record left out, at fits that have not see
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -15,6 +16,10 @@ from fairlead.studies.fits.fit_file import Asked, Law
 from fairlead.studies.fits.nests import Contained, Floats, places
 from fairlead.studies.fits.problem import Problem, Record, Target
 from fairlead.studies.fits.search import Error, Fitted, Told, errors, fit, foretelling, prepared
+
+SAME = 0.01
+"""Share of its error by which a law is better at least, to be called better: two runs that no record tells apart differ
+by less."""
 
 
 @dataclass(frozen=True)
@@ -93,25 +98,36 @@ def _sizes(found: Mapping[str, Error], units: Mapping[str, str]) -> str:
 
 def preferred(judged: Sequence[Judged]) -> str:
     """The law with the smallest left-out error, summed over records and signals as shares of the first law's."""
-    first = next((one for one in judged if not one.sentence), None)
-    if first is None:
-        return ""
-    scores = {one.law.name: _score(one, first) for one in judged if not one.sentence}
-    return min(scores, key=lambda name: scores[name])
+    scores = _scores(judged)
+    return min(scores, key=lambda name: scores[name], default="")
+
+
+def as_good(judged: Sequence[Judged]) -> list[str]:
+    """The preferred law, and those that what was left out does not tell from it; none where no law foretells it all."""
+    scores = _scores(judged)
+    best = min(scores.values(), default=math.inf)
+    return [name for name, score in scores.items() if score <= best * (1 + SAME)] if math.isfinite(best) else []
 
 
 def better_everywhere(judged: Sequence[Judged]) -> list[str]:
-    """Laws whose left-out error is below that of the first law on every record and signal."""
+    """Laws whose left-out error is below that of the first law, by more than `SAME`, on every record and signal."""
     first = judged[0]
     return [one.law.name for one in judged[1:] if not one.sentence and not first.sentence and all(
-        one.left_out[record].get(signal, Error(float("inf"), 0)).mean < error.mean
+        one.left_out[record].get(signal, Error(float("inf"), 0)).mean < (1 - SAME) * error.mean
         for record, found in first.left_out.items() for signal, error in found.items())]  # fmt: skip
 
 
-def _score(one: Judged, first: Judged) -> float:
-    total = 0.0
-    for record, found in first.left_out.items():
-        for signal, error in found.items():
-            mine = one.left_out[record].get(signal)
-            total += mine.mean / max(error.mean, 1e-300) if mine else float("inf")
-    return total
+def _scores(judged: Sequence[Judged]) -> dict[str, float]:
+    """By law, errors on what was left out, summed as shares of the first law that has one; infinite without."""
+    able = [one for one in judged if not one.sentence]
+    sizes: dict[tuple[str, str], float] = {}
+    for one in able:
+        for record, found in one.left_out.items():
+            for signal, error in found.items():
+                sizes.setdefault((record, signal), max(error.mean, 1e-300))
+
+    def share(one: Judged, record: str, signal: str) -> float:
+        error = one.left_out.get(record, {}).get(signal)
+        return error.mean / sizes[record, signal] if error else math.inf
+
+    return {one.law.name: sum(share(one, *place) for place in sizes) for one in able}

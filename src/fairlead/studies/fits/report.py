@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from fairlead.studies.fits.fit_file import Asked
-from fairlead.studies.fits.laws import Judged, better_everywhere, preferred
+from fairlead.studies.fits.laws import SAME, Judged, as_good, better_everywhere, preferred
 from fairlead.studies.fits.problem import Record, Target
 from fairlead.studies.fits.search import Error, Fitted
 
@@ -60,6 +60,7 @@ def laws_record(judged: Sequence[Judged]) -> dict[str, Any]:
             for one in judged
         },
         "preferred": preferred(judged),
+        "as_good": as_good(judged),
         "better_everywhere": better_everywhere(judged),
     }
 
@@ -133,12 +134,24 @@ def law_lines(judged: Sequence[Judged]) -> Iterator[str]:
         if one.sentence:
             yield f"{one.law.name}: {one.sentence}"
     better = better_everywhere(judged)
-    yield f"The data prefer {preferred(judged)} by its errors on what was left out."
+    yield _preference(judged)
     first = judged[0].law.name
     if better:
         yield f"Better than {first} on every record left out: {', '.join(better)}."
     else:
         yield f"No law is better than {first} on every record left out."
+
+
+def _preference(judged: Sequence[Judged]) -> str:
+    """Which law the records that were left out prefer, or that they do not tell laws apart."""
+    same, name = as_good(judged), preferred(judged)
+    if not same:
+        return "No law is preferred, since none foretells every record that was left out."
+    if len(same) == 1:
+        return f"The data prefer {name} by its errors on what was left out."
+    *others, last = same
+    told = f"The data do not tell {', '.join(others)} and {last} apart"
+    return f"{told}: their errors on what was left out differ by less than {SAME:.0%}. {name} has the smallest."
 
 
 def _widest(judged: Sequence[Judged]) -> Mapping[str, Mapping[str, Error]]:

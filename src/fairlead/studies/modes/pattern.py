@@ -4,6 +4,7 @@
 
 A zone has the name that `fairlead describe TYPE` tells. `held` also stands for the zone in which a contact holds,
 `sliding` for that of its direction: the one in force, or, of a contact that holds, the one that its force is nearer to.
+A pattern is for those of its parts that have the zone.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class Known:
             machines = [k for k, name in enumerate(self.instance.machine_names) if name in found]
             fitting = [(k, number) for k in machines if (number := self.number(k, zone)) is not None]
             zones[[k for k, _ in fitting]] = [number for _, number in fitting]
-            if machines and (not fitting or len({self.instance.machine_names[k] for k, _ in fitting}) < len(found)):
+            if machines and not fitting:  # some may: a line has springs and joints as well
                 faults.append(self._no_such(pattern, zone, machines))
         return zones
 
@@ -115,5 +116,5 @@ class Known:
 
     def _no_such(self, pattern: str, zone: str, machines: Iterable[int]) -> Fault:
         known = dict.fromkeys(name for k in machines for name in self.instance.zone_names(k))
-        near = did_you_mean(zone, [*known, HELD, SLIDING])
+        near = did_you_mean(zone, {*known, HELD, SLIDING} - {zone})
         return Fault(PLACE, f"{pattern} has no zone {shown(zone)}. {near}".rstrip(), f"There are {listing(known)}.")
