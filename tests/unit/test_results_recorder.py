@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fairlead.errors import FairleadError, UsageError
-from fairlead.results import Result, RunDirectory, Signal, recorder, run_file
+from fairlead.results import Result, RunDirectory, Signal, recorder, run_file, store
 from fairlead.results.damage import DamagedResultsError
 
 SIGNALS = (Signal("block.v", "m/s", "speed of the block"),)
@@ -148,6 +148,21 @@ def test_flushed_rows_are_readable_while_the_run_goes_on(tmp_path: Path) -> None
     result = Result.open(tmp_path / "run")
     assert (result.status, result["block.v"].tolist(), len(result.events)) == ("running", [1.0, 2.0], 1)
     run.finish("finished", {})
+
+
+def test_a_run_of_a_second_lays_out_its_file_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the first rows early, the file is laid out with room for more, and once more without it at the end."""
+    wall = iter(np.arange(0.0, 100.0, 0.1).tolist())
+    monkeypatch.setattr(recorder.clock, "monotonic", lambda: next(wall))
+    laid_out: list[Path] = []
+    create = store.layout.create
+    monkeypatch.setattr(store.layout, "create", lambda path, *more: (laid_out.append(path), create(path, *more)))
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    for k in range(12):
+        run.append([float(k)], [[1.0]], [0])
+    run.finish("finished", {})
+    assert len(laid_out) == 1
+    assert len(Result.open(tmp_path / "run").t) == 12
 
 
 def test_a_block_too_large_for_memory_goes_to_the_disk_at_once(

@@ -10,7 +10,8 @@
 although its process is gone was killed (see `lock.py`).
 
 Signals and events reach the disk at most every `FLUSH_PERIOD` of wall time and at the end, so a
-killed run loses no more than that. Flushing never takes more than a small share of the time.
+killed run loses no more than that, or its first `FIRST_FLUSH`. Flushing never takes more than a small share
+of the time.
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ from fairlead.results.store import SERIES_FILE, SeriesWriter
 from fairlead.results.trajectory import Result
 
 FLUSH_PERIOD = 0.5
+FIRST_FLUSH = 2.0
+"""Wall seconds until the file is laid out: for 500 signals that takes a tenth of a second, and a run that is shorter
+lays it out once, at its end."""
 LARGEST_SHARE_OF_FLUSHING = 0.05
 MOST_BYTES_IN_MEMORY = 2**24
 
@@ -52,7 +56,7 @@ class RunDirectory(Sink):
         self._blocks: list[Block] = []
         self._bytes = 0
         self._flushed = clock.monotonic()
-        self._pause = FLUSH_PERIOD
+        self._pause = FIRST_FLUSH
         self._result: Result | None = None
         run_file.write(self.path, {**self._record, "status": run_file.CLAIMED})
         claimed.clear()

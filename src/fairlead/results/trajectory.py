@@ -401,10 +401,10 @@ def _unreadable(path: Path, status: str) -> str:
     kept = earlier(path)
     way_out = f"The results that it was to replace are in {kept}." if kept else "Run it again."
     if status == run_file.RUNNING:
-        return f"The run in {path} has not written a row yet.\n    Wait a second; rows come every half second."
+        return f"The run in {path} has not written a row yet.\n    Wait some seconds; rows come every half second."
     if status != run_file.KILLED:
         return f"The run in {path} ({status}) has no {SERIES_FILE} any more.\n    {way_out}"
     return (
-        f"The run in {path} was {status} before its first rows were written, within its first second; there is nothing "
+        f"The run in {path} was {status} before its first rows were written, in its first seconds; there is nothing "
         f"to read.\n    {way_out}"
     )
