@@ -100,6 +100,8 @@ class Netlist:
     limits: Mapping[str, Value] = field(default_factory=dict)
     interface: Interface = field(default_factory=Interface)
     digest: str = ""
+    unread: tuple[str, ...] = ()
+    """Names of components without a type, of which nothing more can be said."""
     written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})
     """The blocks `run` and `record` as written, for messages about them."""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)
