@@ -38,6 +38,12 @@ def test_a_stage_of_a_large_route_shows_itself_in_a_line(model, stage):
     assert type(getattr(model, stage)).__name__ in fits(getattr(model, stage))
 
 
+def test_what_a_large_netlist_is_made_of_fits_on_a_screen(model):
+    tree = model.sources.tree
+    for thing in (model.sources, tree, *tree.entries.values(), *model.netlist.components.values()):
+        fits(thing)
+
+
 def test_statics_of_a_large_route_and_all_they_are_made_of_fit_on_a_screen(model):
     found = model.statics()
     seen, waiting = set(), [found, *found]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from fairlead.brief import in_a_line
 from fairlead.errors import Location
 from fairlead.netlist.interface import Interface
 from fairlead.netlist.settings import RecordSettings, RunSettings
@@ -21,6 +22,9 @@ class Value:
     key_where: Location | None = None
     written: str = field(default="", compare=False)
     """The expression that the content was worked out from, if it was: `{element}`."""
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
     @property
     def named_at(self) -> Location:
@@ -56,6 +60,9 @@ class Entry:
     parameters: dict[str, Value]
     where: Location
     type_where: Location
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 @dataclass(frozen=True)
