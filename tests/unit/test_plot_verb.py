@@ -119,7 +119,7 @@ def test_figure_6_marks_the_ruck_where_the_run_has_it(result: Result) -> None:
     ("words", "told"),
     [
         ([], "what to draw"),
-        (["RUN", "map", "--out", "x.bmp"], "is no figure that can be drawn"),
+        (["RUN", "map", "--out", "x.bmp"], "Formats are .png, .svg, .pdf"),
         (["RUN", "ledger", "--set", "mu=1"], "a run is over"),
         (["belt", "map", "--set", "run.stop=0.1 s"], "has no line on a route"),
     ],
