@@ -236,6 +236,9 @@ class Arguments:
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
             elif not _is(one, str | int | float):
                 way_out = NONE if one is None else ONE
+                if isinstance(one, Mapping) and one:
+                    inner, given = next(iter(one.items()))
+                    way_out = f'Write the whole name: {{"{key}.{inner}": {shown(repr(given))}}}.'
                 self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", way_out)
             elif one != one:
                 self._wrong(f"{name}[{shown(key)}]", one, "is not a number", NAN)

@@ -106,6 +106,8 @@ class Model:
                 return object.__getattribute__(self, name)
             raise no_attribute(self, name, CALLED)
 
+        __iter__ = None  # or Python would take __getitem__ for it
+
         def __getitem__(self, name: object) -> Any:
             """A model is not asked by name; what is meant is said. Raises TypeError."""
             said = f'"{name}"' if isinstance(name, str) else shown(repr(name))

@@ -144,3 +144,10 @@ def test_the_tables_of_statics_hold_the_numbers_of_the_states(model):
     rest = line.at_rest()
     assert all(low <= high for low, high in zip(rest["inboard_least"], rest["inboard_most"], strict=True))
     assert list(model.statics().to_pandas()["line"].unique()) == [line.route.line.path]
+
+
+@pytest.mark.parametrize(("table", "why"), [("margins", "no line"), ("rucks", "ruck_force"), ("limits", "no limits")])
+def test_a_table_that_is_empty_says_why(table, why):
+    result = fairlead.load("belt", set={"run.stop": "0.1 s"}).run(out=None)
+    found = getattr(result, table)
+    assert why in repr(found() if callable(found) else found)
