@@ -158,7 +158,8 @@ def _curves(libraries: list[str]) -> dict[str, Any]:
     from fairlead.component.given import Part
 
     parts = [one for member in _treatments(libraries).values() for one in member.declaration.parameters.values()]
-    return dict(ChainMap(*(one.family.members for one in parts if isinstance(one, Part))))
+    families: list[Any] = [one.family for one in parts if isinstance(one, Part)]
+    return dict(ChainMap(*(family.members for family in families)))
 
 
 def _written_out(word: str, curves: dict[str, Any]) -> str:

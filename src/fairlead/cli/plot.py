@@ -71,8 +71,8 @@ def plot(
     what, named = _asked(words or [])
     signals = [*named, *(signals or ())]
     of_sweep = bool(source) and is_sweep(pathlib.Path(source))
-    folder = paper or of_sweep
-    refuse_place("--out", out, folder=folder, endings=() if folder else FIGURES)
+    into_folder = paper or of_sweep
+    refuse_place("--out", out, folder=into_folder, endings=() if into_folder else FIGURES)
     if of_sweep:
         written = _of_sweep(pathlib.Path(source), figure, what, out)
     elif paper:
