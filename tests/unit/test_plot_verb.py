@@ -69,7 +69,7 @@ def test_a_profile_has_the_places_and_values_of_its_times(result: Result) -> Non
 
 
 def test_times_outside_the_run_are_refused(result: Result) -> None:
-    with pytest.raises(UsageError, match="1 to 8 within 0 to 2 s"):
+    with pytest.raises(UsageError, match="1 to 8 times within 0 to 2 s"):
         profile(result, [], [3.0])
 
 

@@ -174,7 +174,8 @@ def _alike(name: str, names: list[str]) -> str:
     if not (ending := Path(name).suffix):
         return _meant(did_you_mean(name, names))
     near = {Path(one).stem: one for one in names if Path(one).suffix[:2] == ending[:2]}
-    return near.get(_meant(did_you_mean(Path(name).stem, near)), "")
+    found = near.get(_meant(did_you_mean(Path(name).stem, near)), "")
+    return found or _meant(did_you_mean(name, [one for one in near.values() if one[:1] == name[:1]]))
 
 
 def _meant(sentence: str) -> str:
