@@ -25,6 +25,14 @@ __all__ = ["FairleadError", "Model", "ModelError", "Result", "RunError", "RunInt
            "sensitivity"]  # fmt: skip
 
 
+ELSEWHERE = {"sweep": "fairlead.cases.Cases", "Cases": "fairlead.cases.Cases", "fit": "the command fairlead fit",
+             "statics": "model.statics()", "check": "model.check()", "start": "model.start()",
+             "plot": "result.plot(...)", "report": "the command fairlead report", "open": "fairlead.Result.open(...)",
+             "simulate": "fairlead.run(...)", "contract": "fairlead.testing.contract",
+             "Component": "fairlead.component.Component", "describe": "fairlead.describe_type(...)"}  # fmt: skip
+"""What others look for in the package, and where it is."""
+
+
 def __getattr__(name: str) -> Any:
     if name == "Result":
         from fairlead.result import Result
@@ -38,4 +46,7 @@ def __getattr__(name: str) -> Any:
         from fairlead.studies.sensitivities.sensitivity import sensitivity
 
         return sensitivity
-    raise AttributeError(f"module 'fairlead' has no attribute {name!r}")
+    from fairlead.errors import did_you_mean
+
+    meant = f"Did you mean {ELSEWHERE[name]}?" if name in ELSEWHERE else did_you_mean(name, __all__)
+    raise AttributeError(f"module 'fairlead' has no attribute {name!r}. {meant}".rstrip())

@@ -28,21 +28,38 @@ T = TypeVar("T")
 
 
 def keywords_told(call: Callable[P, T]) -> Callable[P, T]:
-    """The call, which tells a keyword that it does not know with a near one: a UsageError in place of a TypeError."""
+    """The call, which tells a keyword that it does not know with a near one: a UsageError in place of a TypeError.
+
+    So it does with more arguments than it has places for.
+    """
     takes = inspect.signature(call).parameters.values()
+    any_word = any(one.kind is one.VAR_KEYWORD for one in takes)
+    places = [one.name for one in takes if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
+    any_place = any(one.kind is one.VAR_POSITIONAL for one in takes)
     known = [one.name for one in takes if one.kind in (one.POSITIONAL_OR_KEYWORD, one.KEYWORD_ONLY)]
     name = call.__qualname__.removesuffix(".__init__")
 
     @functools.wraps(call)
     def told(*arguments: P.args, **given: P.kwargs) -> T:
+        if len(arguments) > len(places) and not any_place:
+            more = shown(repr(arguments[len(places)]))
+            fitting = [one for one in places if one != "self"]
+            raise UsageError(f"{name}: {more} is one argument too many.\n    {_takes_what(fitting, any_word)}")
         for word in given:
-            if word not in known:
+            if word not in known and not any_word:
                 names = [one for one in known if one != "self"]
                 what = f"{name}: there is no argument {shown(word)}. {did_you_mean(word, names)}".rstrip()
                 raise UsageError(f"{what}\n    Arguments are {listing(names)}.")
         return call(*arguments, **given)
 
     return told
+
+
+def _takes_what(places: list[str], any_word: bool) -> str:
+    """Which arguments a call takes without their names, and how others are given."""
+    words = ", or in a dict: {NAME: VALUE}" if any_word else ""
+    without = f"Without a name it takes {listing(places)}" if places else "It takes none without a name"
+    return f"{without}; others are given as NAME=VALUE{words}."
 
 
 @contextlib.contextmanager
@@ -219,6 +236,9 @@ class Arguments:
                 self._wrong(name, key, "is no name of a parameter or a setting", 'Write it as {"run.stop": "5 s"}.')
             elif not _is(one, str | int | float):
                 way_out = NONE if one is None else ONE
+                if isinstance(one, Mapping) and one:
+                    inner, given = next(iter(one.items()))
+                    way_out = f'Write the whole name: {{"{key}.{inner}": {shown(repr(given))}}}.'
                 self._wrong(f"{name}[{shown(key)}]", one, "is neither a text nor a number", way_out)
             elif one != one:
                 self._wrong(f"{name}[{shown(key)}]", one, "is not a number", NAN)

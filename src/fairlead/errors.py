@@ -159,6 +159,8 @@ def did_you_mean(word: object, allowed: Iterable[str]) -> str:
         }
     near = _one_letter_off(_key(word), by_key)
     if len(near) != 1:
+        near = [key for key in by_key if sorted(key) == sorted(_key(word))]  # two letters in the wrong order
+    if len(near) != 1:
         import difflib
 
         near = difflib.get_close_matches(_key(word), [*by_key][:MOST_WORDS_COMPARED], n=1, cutoff=0.6)

@@ -22,7 +22,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar, Unpack
 
-from fairlead.arguments import Arguments, told_of
+from fairlead.arguments import Arguments, keywords_told, told_of
 from fairlead.brief import in_a_line
 from fairlead.errors import (
     Fault,
@@ -105,6 +105,14 @@ class Model:
             if name.startswith("_") or hasattr(type(self), name):
                 return object.__getattribute__(self, name)
             raise no_attribute(self, name, CALLED)
+
+        __iter__ = None  # or Python would take __getitem__ for it
+
+        def __getitem__(self, name: object) -> Any:
+            """A model is not asked by name; what is meant is said. Raises TypeError."""
+            said = f'"{name}"' if isinstance(name, str) else shown(repr(name))
+            ways = f"A part is model.netlist.components[{said}], a signal model.run()[{said}]"
+            raise TypeError(f"a Model has no [{said}]. {ways}, a new value model.with_values({{...}}).")
 
     @functools.cached_property
     def assembly(self) -> Assembly:
@@ -305,6 +313,7 @@ class Model:
         given = {"run.start": f"{settings.start!r} s", "run.stop": f"{settings.stop!r} s"}
         return self._renewed(given, self) if begins_otherwise(self.system.flat, settings.start) else self
 
+    @keywords_told
     def with_values(self, values: Mapping[str, float | str] | None = None, /, **more: float | str) -> Model:
         """A model with other `values` of settings (`{"pad.normal_force": "20 N"}`), `more` of parameters (`mu=0.6`).
 

@@ -85,6 +85,14 @@ NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
 FACTOR = re.compile(r"([A-Za-zµμΩ°%_]+|1)(?:(?:\^|\*\*)([-+]?\d{1,3}))?")
 FORM = "A quantity is a finite number, a space and a unit."
 GRAMMAR = "Units are joined by * and / as in N*s/m or m/s^2."
+MINUSES = "\u2212\u2013\u2010\u2011"
+"""What editors make of a hyphen before a number."""
+GROUPED = re.compile(
+    r"([-+]?\d{1,3}(?:([ ,'_\u2019\u00a0\u202f\u2009])\d{3}(?!\d))(?:\2\d{3}(?!\d))*"
+    r"|[-+]?\d{1,3}(?:\.\d{3})+(?=,))([.,]\d+)?"
+)
+"""A number with marks of thousands, and the part behind its decimal sign."""
+SUM = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?(?: *[*/] *[-+]?[\d.]+)+)(?=$| )")
 SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "·": "*"})
 
 
@@ -211,15 +219,35 @@ def split(text: str) -> tuple[float, str]:
     """The number and the unit text ("" when there is none) of a quantity; the unit is not looked at."""
     match = NUMBER.match(text) if len(text) <= LONGEST_NUMBER + 1 + LONGEST_UNIT else None
     if match is None:
-        raise QuantityError(f"{shown(text)} is not a quantity", FORM)
+        raise QuantityError(f"{shown(text)} is not a quantity", _other_hand(text) or FORM)
     number, rest = float(match[0]), text[match.end() :]
-    if comma := re.match(r",\d+", rest):
-        fixed = f"{match[0]}.{comma[0][1:]}{rest[comma.end() :]}"
-        raise QuantityError(f"{shown(text)} is not a quantity", f"Write a decimal point, not a comma: {shown(fixed)}.")
+    if rest and (rest[0] != " " or not rest[1:2].isalpha()) and (advice := _other_hand(text)):
+        raise QuantityError(f"{shown(text)} is not a quantity", advice)
     if rest and not rest.startswith(" "):
         advice = f"Put a space before the unit: {match[0]} {rest}." if rest[0].isalpha() else FORM
         raise QuantityError(f"{shown(text)} is not a quantity", advice)
     return number, rest.strip(" ")
+
+
+def _other_hand(text: str) -> str:
+    """What to write instead of a number as it is written elsewhere, or as a sum; "" for what is none of these."""
+    if len(text) > LONGEST_NUMBER + 1 + LONGEST_UNIT:
+        return ""
+    if text[:1] in MINUSES and NUMBER.match(text[1:]):
+        return f"The minus sign of a number is a hyphen: {shown(f'-{text[1:]}')}."
+    if found := SUM.match(text):
+        return f'Arithmetic goes in braces and quotes: "{{{found[1]}}}{text[found.end() :].rstrip()}".'
+    if (grouped := GROUPED.match(text)) is None:
+        comma = re.match(r"([-+]?\d+),(\d+)(?![\d,.])", text)
+        return f"Write a decimal point, not a comma: {comma[1]}.{comma[2]}{text[comma.end() :]}." if comma else ""
+    whole, rest = re.sub(r"[^-+\d]", "", grouped[1]), text[grouped.end() :]
+    decimals = f".{grouped[3][1:]}" if grouped[3] else ""
+    if grouped[2] == "," and grouped[1].count(",") == 1 and not decimals:
+        if whole.lstrip("-+").startswith("0"):
+            return f"Write a decimal point, not a comma: {grouped[1].replace(',', '.')}{rest}."
+        point = f"{grouped[1].replace(',', '.')}{rest}"
+        return f"A comma is no decimal point and parts no thousands: write {shown(point)} or {shown(whole + rest)}."
+    return f"Write the number without marks of thousands: {shown(f'{whole}{decimals}{rest}')}."
 
 
 def fits(given: Dimension, declared: Dimension) -> bool:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import fairlead.results as results
 from fairlead.analysis.record.reported import remarks
 from fairlead.arguments import keywords_told
-from fairlead.errors import no_attribute
+from fairlead.errors import UsageError, no_attribute
 from fairlead.results.asked import refuse_no_height
 
 if TYPE_CHECKING:
@@ -29,7 +29,9 @@ if TYPE_CHECKING:
 
 CALLED = {"time": "t", "times": "t", "to_dataframe": "to_pandas()", "df": "to_pandas()", "data": "to_xarray()",
           "names": "signals", "values": "columns()", "max": "extremes(name)", "min": "extremes(name)",
-          "save": "to_csv(path)", "success": "ok", "message": "run['sentence']"}  # fmt: skip
+          "save": "to_csv(path)", "sel": "to_xarray().sel(time=...), or at(name, t)",
+          "interp": "to_xarray().interp(time=...)", "isel": "to_xarray()", "loc": "to_pandas().loc",
+          "success": "ok", "message": "run['sentence']"}  # fmt: skip
 """What others call what a Result has."""
 
 
@@ -40,6 +42,12 @@ class Result(results.Result):
     """
 
     if not TYPE_CHECKING:  # a type checker would take it for leave to ask for anything
+
+        def __init__(self, path: Any, run: Any = None, series: Any = None, events: Any = None) -> None:
+            """As the class of the results room; a path alone is told how it is opened. Raises UsageError."""
+            if run is None:
+                raise UsageError(f"Result: run is missing. An earlier run is fairlead.Result.open({path!r}).")
+            super().__init__(path, run, series, events)
 
         def __getattr__(self, name: str) -> Any:
             """What is not there is told with what was meant. Raises AttributeError."""

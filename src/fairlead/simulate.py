@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from fairlead.arguments import Arguments, keywords_told, told_of
@@ -47,7 +48,7 @@ def opened(path: str | os.PathLike[str], set: Mapping[str, str | float] | None,
     if sources is None:
         raise ModelError(faults)
     model = Model(sources, as_text(set or {}), tuple(os.fspath(each) for each in libraries), allow_fmu=allow_fmu)
-    if model._faults or not all(map(os.path.exists, model.libraries)):
+    if model._faults or not all(map(_is_python, model.libraries)):
         model.check()
     if set and _fits_are_known_late(model.netlist, set):
         model.check()
@@ -72,6 +73,11 @@ def run(path: str | os.PathLike[str], set: Mapping[str, str | float] | None = No
     with told_of("run", "load"):
         model = load(path, set, libraries, allow_fmu)
     return model._run(out, force, progress, profile, check, settings, "run")
+
+
+def _is_python(library: str) -> bool:
+    """Whether a library is there, as a Python file or a folder."""
+    return (found := Path(library)).is_dir() or (found.suffix == ".py" and found.exists())
 
 
 def _fits_are_known_late(netlist: Netlist, given: Iterable[str]) -> bool:

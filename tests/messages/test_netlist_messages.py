@@ -5,6 +5,7 @@ import os
 
 import pytest
 
+import fairlead
 from fairlead.errors import ModelError
 from fairlead.netlist import load
 
@@ -80,7 +81,7 @@ SEEDED = [
     ("wall: {type: Ground}", "endWall-2: {type: Ground}", "\n    Write it as end_wall_2."),
     ("wall: {type: Ground}", "2: {type: Ground}", "2 is not a component name"),
     ("[spring.b, pad.a]", "[sprin.b, pad.a]", "belt.yaml:14:6: sprin.b: there is no component sprin\n    Did you mean sp"),
-    ("[spring.b, pad.a]", "[spring, pad.a]", "belt.yaml:14:6: spring is not a port\n    A port is written component"),
+    ("[spring.b, pad.a]", "[spring, pad.a]", "belt.yaml:14:6: spring is a component, not a port\n    Write one of its ports, spring"),
     ("[spring.b, pad.a]", "[spring.b]", "belt.yaml:14:5: connections[1] is a list of 1; at least 2 needed"),
     ("[spring.b, pad.a]", "[]", "belt.yaml:14:5: connections[1] is an empty list; at least 2 needed"),
     ("[spring.b, pad.a]", "[pad.a, pad.a]", "belt.yaml:14:13: pad.a is connected to itself"),
@@ -104,7 +105,7 @@ SEEDED = [
     ('"{2*mu} N"', '"{2^mu} N"', "Write ** for a power."),
     ('"{2*mu} N"', '"{speed} N"', "belt.yaml:10:40: pad.coulomb_force: {speed} N has two units, m/s from its parameters and N"),
     ("run: {stop: 20 s}\n", "", "belt.yaml:1:1: run is missing\n    How far and how exactly to run, such as run: {stop: 20"),
-    ("{stop: 20 s}", "{}", "belt.yaml:15:1: run.stop is missing\n    Time at which the run ends."),
+    ("{stop: 20 s}", "{}", "belt.yaml:15:1: run.stop is missing\n    Time at which the run ends, as in `stop: 10 s`."),
     ("{stop: 20 s}", "{stpo: 20 s}", "belt.yaml:15:7: run has no key stpo\n    Did you mean stop? Known keys are stop, start"),
     ("{stop: 20 s}", "20 s", "belt.yaml:15:6: run = 20 s is not a map"),
     ("20 s", "20 kg", "belt.yaml:15:13: run.stop = 20 kg is a mass, not a time\n    Write a time such as 10 ms"),
@@ -327,3 +328,15 @@ def test_a_tree_of_includes_has_a_bound(tmp_path):
 )
 def test_an_override_that_fits_nowhere_is_named(tmp_path, name, text, expected):
     assert expected in message(tmp_path, GOOD, {name: text})
+
+
+@pytest.mark.parametrize("entry", ["wall: {}", "wall: Ground", "wall:"])
+def test_a_component_without_a_type_is_one_mistake(tmp_path, entry):
+    """Not also one of each connection and signal that names it."""
+    file = tmp_path / "belt.yaml"
+    text = GOOD.replace("  pad: {type: Friction, coulomb_force: \"{2*mu} N\"}\n", "").replace("wall: {type: Ground}", entry)
+    text = text.replace("  - [spring.b, pad.a]\n", "").replace('["*"]', "[wall.force]")
+    file.write_text(text.replace("run: {stop", "limits: {wall.force: {below: 1 N}}\nrun: {stop"))
+    with pytest.raises(ModelError) as caught:
+        fairlead.load(file).check()
+    assert [one.what.split(" is ")[0].split(" = ")[0].split(".")[0] for one in caught.value.faults] == ["wall"]

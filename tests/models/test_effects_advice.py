@@ -18,6 +18,8 @@ import pytest
 from typer.testing import CliRunner
 
 import fairlead
+import fairlead.analysis.effects.effects as within
+from fairlead.analysis.cost.kept_runs import KeptRuns
 from fairlead.analysis.cost.timed_run import Timed
 from fairlead.analysis.effects.changes import changes, floors, worst_of
 from fairlead.analysis.effects.effect_row import Row
@@ -354,3 +356,18 @@ def test_a_law_just_traced_is_the_same_as_that_from_the_cache():
         facts = {n: tuple(v) if isinstance(v, list) else v for n, v in vars(block.kernel.structure).items()}
         other.blocks[k] = replace(block, kernel=replace(block.kernel, structure=Structure(**facts)))
     assert same(model.system, other)
+
+
+def test_a_budget_that_is_short_for_all_switches_does_not_shorten_the_run_to_nothing(monkeypatch):
+    """Ten thousand switches leave 60 us each; a line is still run for a fiftieth of the budget."""
+    caps = []
+
+    def run(self, settings, cap, made=None, allowed=math.inf):
+        caps.append(cap)
+        return Timed("finished", values=np.zeros((1, 0)))
+
+    monkeypatch.setattr(within, "timed_run", lambda *_: Timed("budget"))
+    monkeypatch.setattr(within._Runner, "run", run)
+    runner = within._Runner(lambda _: None, KeptRuns(None), "", (), [], (0.0, 50.0), math.inf, 0.0)
+    runner.base(100.0, 10_000, given=False)
+    assert caps == [pytest.approx(100.0 / 50)]

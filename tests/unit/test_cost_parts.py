@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import fairlead
+from fairlead.analysis.cost.choice import choose
 from fairlead.analysis.cost.compared_outputs import recorded, recorded_of_meshes
-from fairlead.analysis.cost.deviation import output_errors, scales, switching
+from fairlead.analysis.cost.deviation import OutputError, output_errors, scales, switching
 from fairlead.analysis.cost.kept_runs import KeptRuns, key_of
-from fairlead.analysis.cost.ladder import Ladder, other_equations
+from fairlead.analysis.cost.ladder import Equations, Ladder, Rung, other_equations
 from fairlead.analysis.cost.meshes import correspondence, meshes
+from fairlead.analysis.cost.study import Reference, Row, Study
 from fairlead.analysis.cost.timed_run import Timed
 from fairlead.analysis.treatments.treatments import treatment
 from fairlead.errors import ModelError, UsageError
@@ -204,3 +206,21 @@ def test_what_moves_by_rounding_alone_has_no_range():
     """A block that is held creeps by 1e-18 m: no difference of two runs is a share of that."""
     values = np.stack([1e-18 * T, 2.5 * T, 5.0 + 1e-14 * T, 1e-9 * T], axis=1)
     assert scales(["block.x", "pad.friction", "far.x", "slow.x"], values) == pytest.approx([0.0, 2.5, 0.0, 1e-9])
+
+
+def test_of_a_sensitive_scene_no_line_is_chosen_that_is_only_known_to_be_below_more_than_the_target():
+    """Tight runs of its equations scatter by 1.4 %: a line of 0.8 % says no more than one of 1.4 % does."""
+
+    def line(equations, accuracy, size, cpu):
+        error = [OutputError("a.x", "m", 1.0, end=size, rms=size, worst=size, mean=size, deviation=size)]
+        return Row(Rung(equations, "rodas", accuracy), Timed("finished", cpu=cpu), numerical=error, modelling=error)
+
+    scene, other = Equations("", exact=True), Equations("binding", {"friction.method": "binding"}, "treatment")
+    sizes = ((1e-2, 0.017, 0.1), (1e-3, 0.008, 0.2), (1e-4, 0.008, 0.3), (1e-5, 0.014, 0.4))
+    rows = [*(line(scene, *one) for one in sizes), line(other, 1e-4, 0.005, 0.5)]
+    tight = Reference("tight", Timed("finished"), spread=0.0074, sensitive=True)
+    study = Study("a", (0.0, 1.0), whole=True, reference=tight, rows=rows)
+    assert choose(study, 0.01).row is rows[-1]
+    assert choose(study, 0.05).row is rows[0]
+    study.rows = rows[:-1]
+    assert choose(study, 0.01).row is None

@@ -38,6 +38,12 @@ def test_a_stage_of_a_large_route_shows_itself_in_a_line(model, stage):
     assert type(getattr(model, stage)).__name__ in fits(getattr(model, stage))
 
 
+def test_what_a_large_netlist_is_made_of_fits_on_a_screen(model):
+    tree = model.sources.tree
+    for thing in (model.sources, tree, *tree.entries.values(), *model.netlist.components.values()):
+        fits(thing)
+
+
 def test_statics_of_a_large_route_and_all_they_are_made_of_fit_on_a_screen(model):
     found = model.statics()
     seen, waiting = set(), [found, *found]
@@ -138,3 +144,10 @@ def test_the_tables_of_statics_hold_the_numbers_of_the_states(model):
     rest = line.at_rest()
     assert all(low <= high for low, high in zip(rest["inboard_least"], rest["inboard_most"], strict=True))
     assert list(model.statics().to_pandas()["line"].unique()) == [line.route.line.path]
+
+
+@pytest.mark.parametrize(("table", "why"), [("margins", "no line"), ("rucks", "ruck_force"), ("limits", "no limits")])
+def test_a_table_that_is_empty_says_why(table, why):
+    result = fairlead.load("belt", set={"run.stop": "0.1 s"}).run(out=None)
+    found = getattr(result, table)
+    assert why in repr(found() if callable(found) else found)

@@ -21,6 +21,7 @@ from fairlead.component.given import Waveform
 from fairlead.component.registry import known_types
 from fairlead.component.waveforms import TERMS, read_waveform
 from fairlead.netlist.yaml12 import read_yaml
+from fairlead.quantities import QuantityError, si
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -158,3 +159,30 @@ def test_files_and_types_that_a_page_names_exist(page: str) -> None:
         assert any((base / name).exists() for base in (ROOT, ROOT / "src/fairlead", engine)), name
     for kind in re.findall(r"type: (\w+)", text):
         assert kind in known_types() or kind in PARAMETERS or kind == "TYPE", kind
+
+
+BETWEEN_TWO = """
+schema: 1
+components:
+  floor: {type: Ground}
+  belt: {type: MotionSource, velocity: 1 m/s}
+  p: {type: Contact, normal_force: 1 N, curve: 0.3}
+  q: {type: Contact, normal_force: 1 N, curve: 0.3}
+connections: [[floor.flange, p.a], [p.b, q.a], [q.b, belt.flange]]
+run: {stop: 1 s}
+"""
+
+
+def test_messages_that_the_page_on_starting_explains_are_those_that_there_are(tmp_path: pathlib.Path) -> None:
+    """Each stands in the source as it is, or is what a wrong scene or quantity is told."""
+    text = (ROOT / "docs/howto/start.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (?!Message|---)(.+?) \|", text, re.MULTILINE)
+    assert len(rows) > 5
+    (tmp_path / "between.yaml").write_text(BETWEEN_TWO)
+    with pytest.raises(fairlead.ModelError) as caught:
+        fairlead.load(tmp_path / "between.yaml").check()
+    with pytest.raises(QuantityError) as other:
+        si("3 N", "m")
+    sources = [file.read_text(encoding="utf-8") for file in (ROOT / "src" / "fairlead").rglob("*.py")]
+    known = " ".join([*sources, str(caught.value), str(other.value)])
+    assert [one for one in rows if one.removesuffix(" ...") not in known] == []

@@ -263,3 +263,10 @@ def test_a_mistake_in_what_is_varied_is_told_before_anything_runs(answer, tmp_pa
     assert told.exit_code == 1
     assert said in told.output
     assert not (tmp_path / "c").exists()
+
+
+def test_the_name_of_a_curve_alone_is_told_with_what_it_needs(answer):
+    said = answer("friction", "tustin")
+    assert said.exit_code == 2
+    told = " ".join(said.output.replace("│", " ").split())
+    assert "{curve: tustin, stiction: ..., coulomb: ..., velocity: ...}" in told

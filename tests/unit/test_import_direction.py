@@ -25,7 +25,7 @@ ALLOWED = {
     "native": {"errors", "processor", "sealed"},
     "renamed": set(),
     "patterns": {"renamed"},
-    "netlist": {"errors", "quantities"},
+    "netlist": {"brief", "errors", "quantities"},
     "component": {"errors", "quantities", "netlist", "renamed"},
     "foreign": {"errors", "quantities", "component"},
     "components": {"errors", "quantities", "component", "foreign"},

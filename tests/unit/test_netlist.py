@@ -213,3 +213,17 @@ def test_several_devices_of_a_type_are_numbered_as_their_signals_are(tmp_path):
     set_ = {"route.stations.bend_2.angle": "1", "route.stations.bend_3.angle": "2", "route.stations.pulley.angle": "3"}
     stations = load(file, set_).components["route"].parameters["stations"].plain()
     assert [one.get("angle") for one in stations] == ["90 deg", 1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [("own.yml", "own.yaml"), ("belt.yml", "belt"), ("beltt.yaml", "belt"), ("ownn.yaml", "own.yaml")],
+)
+def test_a_file_is_not_meant_for_its_ending_alone(asked, meant, tmp_path, monkeypatch):
+    """`w.yaml` shares most of its letters with `beltt.yaml`, and none of its name."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("w.yaml", "own.yaml"):
+        (tmp_path / name).write_text("schema: 1\n")
+    with pytest.raises(ModelError) as caught:
+        load(asked)
+    assert caught.value.faults[0].way_out.startswith(f"Did you mean {meant}?")

@@ -64,3 +64,11 @@ def test_no_file_is_written_over(folder):
     assert answer.exit_code == 2
     assert (folder / "mine.yaml").read_text() == "mine"
     assert not (folder / "mine.py").exists()
+
+
+def test_a_new_route_is_compared_with_statics(tmp_path, monkeypatch):
+    """It is what its author looks at first: a run too short or without places says only that it was not compared."""
+    monkeypatch.chdir(tmp_path)
+    assert CliRunner().invoke(app, ["new", "route", "mine"]).exit_code == 0
+    said = CliRunner().invoke(app, ["run", "mine.yaml"])
+    assert "% at most" in said.output, said.output

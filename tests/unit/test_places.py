@@ -42,6 +42,24 @@ def test_a_folder_where_a_file_is_to_be_written_is_refused(words, option, run, t
     assert not list(folder.iterdir())
 
 
+@pytest.mark.parametrize(("words", "option", "name"), [
+    (["plot", "RUN", "zones"], "--out", "x.xyz"), (["plot", "belt", "friction"], "--out", "x.xyz"),
+    (["plot", "belt", "work-precision"], "--out", "x"), (["modes", "belt"], "--plot", "x.xyz"),
+    (["friction", "belt"], "--out", "x.xyz"), (["graph", "belt"], "--out", "x.png"),
+    (["report", "RUN"], "--out", "x.pdf"),
+])  # fmt: skip
+def test_a_format_that_is_not_written_is_told_before_any_work(words, option, name, run, tmp_path) -> None:
+    answer = refused([str(run) if one == "RUN" else one for one in words], option, tmp_path / name)
+    assert "Formats are ." in answer
+    assert not (tmp_path / name).exists()
+
+
+@pytest.mark.parametrize("words", [["run", "belt"], *(words for words in INTO_FOLDERS if words[0] != "friction")])
+def test_a_folder_that_is_called_like_a_picture_is_refused(words, tmp_path) -> None:
+    assert "a folder is wanted" in refused(words, "--out", tmp_path / "x.png")
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("words", INTO_FOLDERS)
 @pytest.mark.parametrize("below", [False, True])
 def test_a_file_where_a_folder_is_wanted_is_refused(words, below, tmp_path) -> None:

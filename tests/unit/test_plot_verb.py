@@ -69,7 +69,7 @@ def test_a_profile_has_the_places_and_values_of_its_times(result: Result) -> Non
 
 
 def test_times_outside_the_run_are_refused(result: Result) -> None:
-    with pytest.raises(UsageError, match="1 to 8 within 0 to 2 s"):
+    with pytest.raises(UsageError, match="1 to 8 times within 0 to 2 s"):
         profile(result, [], [3.0])
 
 
@@ -119,7 +119,7 @@ def test_figure_6_marks_the_ruck_where_the_run_has_it(result: Result) -> None:
     ("words", "told"),
     [
         ([], "what to draw"),
-        (["RUN", "map", "--out", "x.bmp"], "is no figure that can be drawn"),
+        (["RUN", "map", "--out", "x.bmp"], "Formats are .png, .svg, .pdf"),
         (["RUN", "ledger", "--set", "mu=1"], "a run is over"),
         (["belt", "map", "--set", "run.stop=0.1 s"], "has no line on a route"),
     ],

@@ -222,3 +222,30 @@ def test_a_quantity_of_any_dimension_can_be_read():
 def test_units_that_run_together_get_a_sign_between(typed, meant):
     with pytest.raises(QuantityError, match=rf"Did you mean {re.escape(meant)}\?"):
         si(f"4 {typed}", "N")
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("\u22120.3 N", "-0.3 N"), ("\u20133 N", "-3 N"), ("3 000 N", "3000 N"), ("1'300 N", "1300 N"),
+     ("1_000 N", "1000 N"), ("1.300,5 N", "1300.5 N"), ("1,300.5 N", "1300.5 N"), ("1,300,000 N", "1300000 N"),
+     ("2,5 N", "2.5 N"),
+     ("0,005 N", "0.005 N"), ("1/3 N", '"{1/3} N"'), ("2 * 3 N", '"{2 * 3} N"'), ("1 000 000", "1000000")],
+)  # fmt: skip
+def test_a_number_as_others_write_it_is_told_as_it_is_written_here(text, meant):
+    with pytest.raises(QuantityError) as caught:
+        si(text, "N")
+    assert meant in caught.value.allowed
+
+
+def test_a_comma_that_may_be_either_is_told_both_ways():
+    with pytest.raises(QuantityError) as caught:
+        si("1,300 N", "N")
+    assert "1.300 N or 1300 N" in caught.value.allowed
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [("12 1/s", "Hz", 12.0), ("100 1", "1", 100.0), ("6 1/min", "Hz", 0.1)],
+)  # fmt: skip
+def test_a_unit_that_begins_with_a_one_is_no_mark_of_thousands(text, unit, value):
+    assert si(text, unit) == pytest.approx(value, rel=1e-15)

@@ -139,6 +139,15 @@ def test_a_map_becomes_a_picture(result: Result, along: str) -> None:
     assert is_picture(path)
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_map_of_a_run_that_ended_in_its_first_step_is_drawn_without_a_word(tmp_path: Path) -> None:
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {"name": "one row"})
+    run.append(np.zeros(1), np.zeros((1, len(SIGNALS))), np.zeros(1))
+    run.finish("budget", {"steps": 1})
+    plot = {"signals": ["line.core[*].tension"], "kind": "map", "file": "map.png"}
+    assert is_picture(figures.draw(Result.open(tmp_path / "run"), [plot])[0])
+
+
 def test_places_of_a_map_may_be_one_more_than_its_values(result: Result) -> None:
     found = map._places(result, [f"line.core[{i}].tension" for i in range(11)], result.match("line.core[*].tension"))
     np.testing.assert_allclose(found[0], np.diff(result.columns(result.match("line.core[*].tension"))[0]) / 2

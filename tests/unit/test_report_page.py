@@ -170,6 +170,14 @@ def test_several_runs_share_a_page_and_are_told_apart(result: Result, tmp_path: 
     assert len(data["runs"]) == 2
 
 
+def test_runs_of_two_models_have_each_their_own_description(tmp_path: Path) -> None:
+    runs = [fairlead.load(name).run(out=tmp_path / name, stop=0.01) for name in ("belt", "block_and_spring")]
+    text = page.write(runs, tmp_path / "both.html").read_text(encoding="utf-8").replace(library(), "")
+    for run in runs:
+        assert text.index(f"<h3>{run.run['name']}</h3>") < text.index(html.escape(run.run["description"]))
+    assert text.index(html.escape(runs[0].run["description"])) > text.index('id="h-verdict"')
+
+
 FOREIGN = '{"format": "x", "status": "y"}'
 
 

@@ -173,10 +173,10 @@ connections:
   - [haul.flange, line.inboard]
   - [tow.flange, line.outboard]
   - [line.path, route.path]
-run: {{stop: 3 s, accuracy: 1e-3}}
+run: {{stop: 6 s, accuracy: 1e-3}}
 record:
   every: 20 ms
-  signals: ["line.line[*].tension", haul.force]
+  signals: ["line.line[*].tension", "line.node[*].x", haul.force]
   plots: [{{title: Tension, signals: ["line.line[*].tension"]}}]
 limits: {{"line.line[*].tension": {{below: 2 kN}}}}
 """

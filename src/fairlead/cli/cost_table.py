@@ -75,8 +75,8 @@ def _below(study: "Study") -> list[str]:
 
     lines = []
     if not study.whole:
-        lines.append(f"Studied is t = {study.span[0]:g} ... {study.span[1]:g} s only, to keep within the budget; "
-                     "--full or a larger --budget takes more.")  # fmt: skip
+        lines.append(f"Studied is t = {study.span[0]:g} ... {study.span[1]:g} s only, to keep within the budget; later "
+                     "errors may be larger. --full or a larger --budget takes more.")  # fmt: skip
     reference = study.reference
     if reference is not None:
         spread = "" if reference.spread is None else f"; they agree to {percent(reference.spread)}"

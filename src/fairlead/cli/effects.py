@@ -21,6 +21,8 @@ COLUMNS = (
     "of", "in the start",
 )  # fmt: skip
 
+BARELY = 0.05  # of the time of a run: what was judged over less is said to be that
+
 
 def effects(
     netlist: Netlist,
@@ -75,11 +77,16 @@ def _moment(option: str, text: str | None) -> float | None:
 
 
 def _print(found: "Effects") -> None:
+    from fairlead.analysis.cost.choice import percent
+
     first = ["the scene as it is", *_sizes(found.size), str(found.base.switches), _time(found.base.cpu)]
     empty = [""] * (len(COLUMNS) - len(first))
     console = print_table(COLUMNS, ("switched", "as", "of"), ([*first, *empty], *map(_cells, found.rows)), 170)
     cut = "" if found.whole else f"; run is to {found.span[1]:g} s, --to or a larger --budget takes more"
     console.print(f"Judged is t = {found.begin:g} ... {found.span[1]:g} s, the start before that apart{cut}.")
+    if 0 < found.studied < BARELY:
+        told = f"That is {percent(found.studied)} of the run: what is said below may be otherwise later."
+        console.print(f"{told} Give a larger --budget, or --to.")
     for row in found.rows:
         console.print(row.sentence, markup=False)
     if found.untouched:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 from fairlead.cli.options import AsJson, Libraries, Quiet, Settings, Verbose, parse_settings
-from fairlead.cli.places import refuse_place
+from fairlead.cli.places import FIGURES, refuse_place
 from fairlead.cli.terminal import echo
 
 if TYPE_CHECKING:
@@ -42,8 +42,8 @@ def friction(
     from fairlead.quantities import si
     from fairlead.report.friction_figure import draw
 
-    is_file = out.suffix.lower() in (".png", ".svg", ".pdf") and not out.is_dir()
-    refuse_place("--out", out, folder=not is_file)
+    is_file = out.suffix[1:].isalpha() and not out.is_dir()
+    refuse_place("--out", out, folder=not is_file, endings=FIGURES if is_file else ())
     usual, records = si(normal or "1 N", "N"), []
     if usual <= 0:
         raise typer.BadParameter(f"--normal {normal}: a contact is pressed with more than 0 N.")
@@ -99,6 +99,8 @@ def contacts_of(
             )
         subject = f"{{{subject}}}" if subject.startswith("curve") else subject
         return {subject: Shown(_of_curve(subject, libraries, method), InScene(None, None))}, []
+    if subject in (curves := _curves(libraries)):
+        raise typer.BadParameter(f"{subject} is a curve: give it with its numbers, {_written_out(subject, curves)}.")
     if subject in _treatments(libraries):
         raise typer.BadParameter(f"{subject} treats a curve: name that, and add --method {subject}.")
     if method:
@@ -149,6 +151,24 @@ def _of_curve(text: str, libraries: list[str], method: str) -> "Values":
     if values is None or faults:
         raise ModelError(faults)
     return values
+
+
+def _curves(libraries: list[str]) -> dict[str, Any]:
+    """Curves of friction by their word, those of one's own as well."""
+    from fairlead.component.given import Part
+
+    parts = [one for member in _treatments(libraries).values() for one in member.declaration.parameters.values()]
+    families: list[Any] = [one.family for one in parts if isinstance(one, Part)]
+    return dict(ChainMap(*(family.members for family in families)))
+
+
+def _written_out(word: str, curves: dict[str, Any]) -> str:
+    """A curve as it is given: '{curve: stribeck, coulomb: ..., velocity: ...}'."""
+    from fairlead.component.given import REQUIRED
+
+    given = curves[word].declaration.parameters
+    wanted = [name for name, one in given.items() if getattr(one, "default", None) is REQUIRED]
+    return "'{" + ", ".join([f"curve: {word}", *(f"{name}: ..." for name in wanted)]) + "}'"
 
 
 def _treatments(libraries: list[str]) -> dict[str, Any]:

@@ -39,7 +39,7 @@ def graph(
     """Draw which port meets which, as Mermaid, DOT or SVG."""
     import fairlead
 
-    refuse_place("--out", out)
+    refuse_place("--out", out, endings=() if kind else (*SUFFIXES, ".md", ".txt"))
     if kind is None:
         kind = SUFFIXES.get(out.suffix, Format.MERMAID) if out else Format.MERMAID
     text = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries).graph(kind.value)

@@ -8,7 +8,7 @@ import typer
 
 import fairlead.cli.completion as completion
 from fairlead.cli.options import AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
-from fairlead.cli.places import place, refuse_place
+from fairlead.cli.places import FIGURES, place, refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import UsageError, shown
 
@@ -47,7 +47,7 @@ def modes(
     from fairlead.studies.modes.modes import modes as study
     from fairlead.studies.modes.told import as_csv, record_of
 
-    refuse_place("--plot", plot)
+    refuse_place("--plot", plot, endings=FIGURES)
     refuse_place("--csv", csv)
     model = fairlead.load(netlist, set=parse_settings(settings), libraries=libraries)
     found = study(model, at or None, _zones(zones or []), acting=acting, out=out, frequencies=_range(frequencies),

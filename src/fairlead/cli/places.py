@@ -7,13 +7,18 @@ place(path, text)                            the file, with the folders that lea
 
 import contextlib
 import pathlib
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
-from fairlead.errors import FairleadError, UsageError, printable
+from fairlead.errors import FairleadError, UsageError, listing, printable
 
 
-def refuse_place(option: str, path: pathlib.Path | None, *, folder: bool = False) -> None:
-    """Raise UsageError for a path of the other kind, or one below a file; None is no path."""
+def refuse_place(
+    option: str, path: pathlib.Path | None, *, folder: bool = False, endings: Collection[str] = ()
+) -> None:
+    """Raise UsageError for a path of the other kind, one below a file, or a file of another format; None is no path.
+
+    `endings` are those of the formats that can be written; without any, every format is.
+    """
     if path is None:
         return
     for above in path.parents:
@@ -22,12 +27,21 @@ def refuse_place(option: str, path: pathlib.Path | None, *, folder: bool = False
             raise UsageError(f"{option} {printable(str(path))}: {way} is a file, not a folder.{_OTHER}")
     if folder and path.exists() and not path.is_dir():
         raise UsageError(f"{option} {printable(str(path))} is a file, and a folder is wanted.{_OTHER}")
+    if folder and path.suffix.lower() in OF_FILES and not path.exists():
+        what = f"{option} {printable(str(path))} is the name of a file, and a folder is wanted."
+        raise UsageError(f"{what}\n    Name a folder, in which files have names of their own.")
     if not folder and path.is_dir():
         inside = printable(str(path / "NAME"))
         what = f"{option} {printable(str(path))} is a folder, and a file is wanted."
         raise UsageError(f"{what}\n    Name a file: {inside}.")
+    if endings and path.suffix.lower() not in endings:
+        formats = listing(list(endings))
+        raise UsageError(f"{option} {printable(str(path))}: the format is not known.\n    Formats are {formats}.")
 
 
+OF_FILES = (".png", ".svg", ".pdf", ".html", ".csv", ".json", ".xlsx", ".nc", ".yaml", ".yml")
+"""Endings that nobody gives a folder."""
+FIGURES = (".png", ".svg", ".pdf")
 _OTHER = "\n    Choose another place."
 
 

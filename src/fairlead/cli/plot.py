@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fairlead.cli.options import Libraries, Quiet, Settings, Verbose, parse_settings
-from fairlead.cli.places import refuse_place
+from fairlead.cli.places import FIGURES, refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import did_you_mean, listing
 
@@ -71,7 +71,8 @@ def plot(
     what, named = _asked(words or [])
     signals = [*named, *(signals or ())]
     of_sweep = bool(source) and is_sweep(pathlib.Path(source))
-    refuse_place("--out", out, folder=paper or of_sweep)
+    into_folder = paper or of_sweep
+    refuse_place("--out", out, folder=into_folder, endings=() if into_folder else FIGURES)
     if of_sweep:
         written = _of_sweep(pathlib.Path(source), figure, what, out)
     elif paper:

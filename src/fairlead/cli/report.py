@@ -27,7 +27,7 @@ def report(
     from fairlead.report import page
     from fairlead.results import Result
 
-    refuse_place("--out", out)
+    refuse_place("--out", out, endings=(".html", ".htm"))
     runs = [Result.open(each.parent if each.is_file() else each) for each in results]
     if out is not None:
         out.parent.mkdir(parents=True, exist_ok=True)

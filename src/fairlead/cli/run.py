@@ -9,6 +9,7 @@ import typer
 
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
 from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import RunWarning
 
@@ -53,6 +54,7 @@ def run(
     from fairlead.model import Place
     from fairlead.netlist.settings_file import read_settings
 
+    refuse_place("--out", out, folder=True)
     chosen = read_settings(settings_file) if settings_file is not None else {}
     model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries, allow_fmu=allow_fmu)
     if report:

@@ -37,7 +37,9 @@ def find(path: str | os.PathLike[str]) -> Path:
     if _is(asked, Path.exists):
         raise ModelError([Fault(where, "this is not a regular file")])
     near = did_you_mean(Path(asked).stem, bundled)
-    local = _nearest(Path(), asked) or _neighbours(Path(asked).parent, Path(asked).name) if _is_path(asked) else ""
+    local = _nearest(Path(), asked) if _is_path(asked) else ""
+    if not local and not near and _is_path(asked):
+        local = _neighbours(Path(asked).parent, Path(asked).name)
     models = f"Bundled models are {listing(sorted(bundled))}." if bundled else ""
     raise ModelError(
         [Fault(where, "there is no such file or bundled model", f"{local or near} {models}".strip())]
@@ -151,7 +153,7 @@ def _nearest(base: Path, asked: str) -> str:
                 names = sorted(each.name for each in (base / at).iterdir())[:MOST_NAMES]
             except (OSError, ValueError):
                 return ""
-            word = did_you_mean(word, names).removeprefix("Did you mean ").removesuffix("?")
+            word = _alike(word, names)
         if not word:
             return ""
         at = at / word
@@ -163,7 +165,21 @@ def _neighbours(folder: Path, name: str) -> str:
         names = sorted(file.name for file in folder.glob("*.yaml"))[:MOST_NAMES]
     except (OSError, ValueError):
         return ""
-    return did_you_mean(name, names) or (f"There are {listing(names)}." if names else "")
+    near = _alike(name, names)
+    return f"Did you mean {near}?" if near else f"There are {listing(names)}." if names else ""
+
+
+def _alike(name: str, names: list[str]) -> str:
+    """The name that was meant, "" for none; of two files with an ending the ending makes none alike."""
+    if not (ending := Path(name).suffix):
+        return _meant(did_you_mean(name, names))
+    near = {Path(one).stem: one for one in names if Path(one).suffix[:2] == ending[:2]}
+    found = near.get(_meant(did_you_mean(Path(name).stem, near)), "")
+    return found or _meant(did_you_mean(name, [one for one in near.values() if one[:1] == name[:1]]))
+
+
+def _meant(sentence: str) -> str:
+    return sentence.removeprefix("Did you mean ").removesuffix("?")
 
 
 def _is(text: str, test: object) -> bool:

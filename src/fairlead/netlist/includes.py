@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from fairlead.brief import in_a_line
 from fairlead.errors import Fault, Location, ModelError, shown
 from fairlead.netlist.files import display, inside, read_text, text_of
 from fairlead.netlist.limits import Meter, TooMuch
@@ -30,6 +31,9 @@ class Sources:
     seen: set[Path] = field(default_factory=set)
     draft: str | None = None
     """The text of the top netlist as an editor has it, which need not be that of the file."""
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
     @property
     def folder(self) -> Path:

@@ -80,18 +80,20 @@ def _netlist(file: Path, tree: Value, document: Document | None, digest: str) ->
     description = tree.entries["description"].content if "description" in tree.entries else None
     names = ("effects", "friction", "initial", "nominal", "limits")
     blocks: dict[str, Any] = {block: _block(tree, block) for block in names}
+    components = _components(tree)
     return Netlist(
         path=file,
         name=str(name or file.stem),
         description=str(description or ""),
         parameters=_block(tree, "parameters"),
-        components=_components(tree),
+        components=components,
         connections=tuple(ends for ends, _ in _connections(tree) if len(ends) > 1),
         run=run,
         record=record,
         interface=document.interface if document else _interface(tree),
         **blocks,
         digest=digest,
+        unread=tuple(name for name in _block(tree, "components") if name not in components),
         written={block: _block(tree, block) for block in ("run", "record", "interface")},
     )
 
@@ -115,7 +117,7 @@ def _components(tree: Value) -> dict[str, Entry]:
 def _connections(tree: Value) -> list[tuple[tuple[EndPoint, ...], Value]]:
     """Each connection as its usable ends, with the value it comes from."""
     listed = tree.entries["connections"].content if "connections" in tree.entries else None
-    known = _block(tree, "components")
+    known = _components(tree)
     found = []
     for item in listed if isinstance(listed, list) else []:
         ends = item.content if isinstance(item.content, list) else []

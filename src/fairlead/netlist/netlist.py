@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from fairlead.brief import in_a_line
 from fairlead.errors import Location
 from fairlead.netlist.interface import Interface
 from fairlead.netlist.settings import RecordSettings, RunSettings
@@ -21,6 +22,9 @@ class Value:
     key_where: Location | None = None
     written: str = field(default="", compare=False)
     """The expression that the content was worked out from, if it was: `{element}`."""
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
     @property
     def named_at(self) -> Location:
@@ -56,6 +60,9 @@ class Entry:
     parameters: dict[str, Value]
     where: Location
     type_where: Location
+
+    def __repr__(self) -> str:
+        return in_a_line(self)
 
 
 @dataclass(frozen=True)
@@ -100,6 +107,8 @@ class Netlist:
     limits: Mapping[str, Value] = field(default_factory=dict)
     interface: Interface = field(default_factory=Interface)
     digest: str = ""
+    unread: tuple[str, ...] = ()
+    """Names of components without a type, of which nothing more can be said."""
     written: Mapping[str, Mapping[str, Value]] = field(default_factory=lambda: {"run": {}, "record": {}})
     """The blocks `run` and `record` as written, for messages about them."""
     texts: Mapping[str, str] = field(default_factory=dict, repr=False)

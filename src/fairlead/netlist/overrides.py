@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from fairlead.errors import Fault, Location, did_you_mean, listing, shown
@@ -25,7 +25,9 @@ from fairlead.netlist.yaml12 import resolve
 from fairlead.quantities import QuantityError, digits, quantity, unit_text
 
 BLOCKS = ("run", "record", "friction", "effects", "initial", "nominal", "limits")
-KEYS = {"run": RunSettings.model_fields, "record": RecordSettings.model_fields}
+KEYS: dict[str, Collection[str]] = {
+    "friction": ("method", "creep"), "run": RunSettings.model_fields, "record": RecordSettings.model_fields,
+}  # fmt: skip
 """Blocks whose names are always the same."""
 DOTTED = ("initial", "nominal", "limits")
 """Blocks whose names are those of signals, with dots and brackets in them."""
@@ -74,6 +76,9 @@ def _one(tree: Value, name: str, text: str, place: Location) -> Value | Fault:
             return _unknown(name, parameters, components)
         path = ["parameters", name]
     elif path[0] in components:
+        if owner := _list_of(components[path[0]], path[1]):
+            meant = ".".join([path[0], owner, *path[1:]])
+            return Fault(PLACE, f"{shown(name)}: {path[0]} has no {path[1]} of its own", f"Did you mean {meant}?")
         path = ["components", *path]
     elif path[0] not in (*BLOCKS, "parameters") or (path[0] == "parameters" and path[1] not in parameters):
         return _unknown(name, parameters, components)
@@ -157,6 +162,13 @@ def _index(items: list[Value], word: str) -> int | None:
     return names.index(word) if word in names else None
 
 
+def _list_of(component: Value, word: str) -> str:
+    """The list of a component in which an item has that name, such as `stations`; "" where it is an entry itself."""
+    lists = {key: one.content for key, one in component.entries.items() if isinstance(one.content, list)}
+    found = (key for key, items in lists.items() if word in _names(items))
+    return "" if word in component.entries else next(found, "")
+
+
 def _unknown(name: str, parameters: Mapping[str, Value], components: Mapping[str, Value]) -> Fault:
     first, _, rest = name.partition(".")
     if not rest and first in components:
@@ -170,7 +182,8 @@ def _unknown(name: str, parameters: Mapping[str, Value], components: Mapping[str
     )
     names = f"Known: {listing(known)}." if known else "The netlist declares no parameters."
     blocks = [block for block, keys in KEYS.items() if name in keys]
-    near = f"Did you mean {blocks[0]}.{name}?" if blocks else did_you_mean(first, known)
+    meant = " or ".join(f"{block}.{name}" for block in blocks)
+    near = f"Did you mean {meant}?" if meant else did_you_mean(first, known)
     return Fault(PLACE, f"{shown(name)}: {what}", f"{near} {names}".strip())
 
 

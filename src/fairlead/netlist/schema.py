@@ -36,7 +36,7 @@ class ComponentBlock(BaseModel):
     model_config = ConfigDict(extra="allow", frozen=True, strict=True, json_schema_extra=say)
 
     type: str
-    """Name of the component class, such as Spring."""
+    """Name of the component class, as in `type: Spring`; `fairlead describe types` lists all."""
 
 
 class Part(Strict):

@@ -48,7 +48,7 @@ class RunSettings(Strict):
     """How a run goes; every time is a quantity (`20 s`, `10 ms`) or a bare number of seconds."""
 
     stop: Seconds
-    """Time at which the run ends."""
+    """Time at which the run ends, as in `stop: 10 s`."""
     start: Seconds = 0.0
     """Time at which the run starts."""
     accuracy: Annotated[Number, Field(ge=1e-12, le=0.1)] = 1e-4

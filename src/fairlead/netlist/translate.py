@@ -75,8 +75,10 @@ def _fault(error: ErrorDetails, model: type[BaseModel], tree: Value) -> Fault:
         return Fault(_place_of_entry(value, reason.what), f"{subject}{joint}{reason.what}", reason.allowed)
     if kind in WANTED:
         words, advice = WANTED[kind]
+        if len(path) == 2 and path[0] == "components":
+            advice = f"Write {path[1]}: {{type: {given if isinstance(value.content, str) else 'NAME, ...'}}}."
         return Fault(value.where, f"{subject} = {given} is not {words}", advice or _hover(model, path))
-    return _connection_or_name(error, value, subject, given)
+    return _connection_or_name(error, value, subject, given, tree)
 
 
 def _place_of_entry(block: Value, said: str) -> Location:
@@ -89,7 +91,7 @@ def _place_of_entry(block: Value, said: str) -> Location:
     return (elsewhere or named or [block.where])[0]
 
 
-def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: str) -> Fault:
+def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: str, tree: Value) -> Fault:
     if error["loc"][-1] == "[key]":
         name = str(error["loc"][-2])
         better = re.sub(r"[^a-z0-9]+", "_", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()).strip("_")
@@ -110,6 +112,10 @@ def _connection_or_name(error: ErrorDetails, value: Value, subject: str, given: 
         ends = str(value.content).split()
         several = len(ends) > 1 and all("." in end for end in ends)
         apart = f"Put a comma between two ports: [{shown(', '.join(ends))}]."
+        kind = _at(tree, ("components", str(value.content), "type")).content
+        if value.content in _at(tree, ("components",)).entries and isinstance(kind, str):
+            said = f"Write one of its ports, {given}.PORT: fairlead describe {shown(kind)} lists them."
+            return Fault(value.where, f"{given} is a component, not a port", said)
         return Fault(value.where, f"{given} is not a port", apart if several else said)
     return Fault(value.where, f"{subject} = {given}: {error['msg']}")
 

@@ -30,6 +30,7 @@ FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
 NOT_A_NUMBER = re.compile(r"\.(?:nan|NaN|NAN)")
 SPACELESS = re.compile(r"([A-Za-z_]\w*):(\S.{0,60})")
+COMMENT = re.compile(r"(//+|/\*|;+|--(?!-)) *(.*?) *(?:\*/)?$")
 COLONLESS = re.compile(r"([A-Za-z_]\w*)\s*\{\s*(\w+)")
 LONGEST_LINE = 200  # characters on each side of a mistake that are looked at for its cause
 MOST_DIGITS = 300  # beyond that no float holds it, and Python itself refuses to read 4300
@@ -256,6 +257,8 @@ def _syntax_fault(error: yaml.MarkedYAMLError, file: str, text: str) -> Fault:
     for number in (one for one in near if one < len(lines)):
         if said := _run_together(lines[number].strip()):
             return Fault(Location(file, number + 1, len(lines[number]) - len(lines[number].lstrip()) + 1), *said)
+    if found := COMMENT.match(line[mark.column :].strip()):
+        return Fault(place, f"not YAML: {found[1]} begins no comment", f"A comment begins with #: # {shown(found[2])}")
     context = f" {error.context}" if error.context else ""
     what = f"not YAML: {error.problem}{context}"
     if line.strip():
@@ -275,6 +278,8 @@ def _deep_place(file: str, text: str) -> Location:
 
 def _run_together(line: str) -> tuple[str, str] | None:
     """Of a line in which a colon is missing, or the space behind it: what is wrong, and what to write."""
+    if found := COMMENT.match(line):
+        return f"not YAML: {found[1]} begins no comment", f"A comment begins with #: {shown(f'# {found[2]}')}"
     if found := COLONLESS.match(line):
         return f"not YAML: {found[1]}: a colon is missing before the brace", f"Write {found[1]}: {{{found[2]}: ...}}."
     if found := SPACELESS.match(line):

@@ -35,7 +35,10 @@ def draw_map(
 
     Raises UsageError when the numbers of signals and places do not go together.
     """
-    times = np.linspace(result.t[0], result.t[-1], COLUMNS)
+    last = result.t[-1]
+    if last <= result.t[0]:  # a run that was cut short in its first step has one time
+        last = result.t[0] + np.spacing(abs(result.t[0]) + 1.0) * COLUMNS
+    times = np.linspace(result.t[0], last, COLUMNS)
     rows = np.minimum(np.searchsorted(result.t, times), len(result.t) - 1)
     values = result.columns(names)[rows]
     places = _places(result, names, along)[rows if along else slice(None)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -68,4 +69,6 @@ def instead_of(name: object) -> str:
         return f'\n    Name it first: result["NAME"][{name.start or ""}:{name.stop or ""}].'
     if isinstance(name, list | tuple) and name and all(isinstance(one, str) for one in name):
         return f'\n    Write to_pandas({list(name)}) for a table of them, or one name: result["{name[0]}"].'
+    if isinstance(name, tuple) and len(name) == 2 and isinstance(name[0], str) and isinstance(name[1], Real):
+        return f'\n    A value at a time is result.at("{name[0]}", {name[1]}).'
     return ""

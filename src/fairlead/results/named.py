@@ -38,7 +38,10 @@ class Names:
         if len(old := self._of_old(name, BY_ONE)) == 1:
             return self.signals[old[0]]
         several = matching(self.signals, name)
-        if several:
+        inside = [one for one in self.signals if isinstance(name, str) and one.startswith(f"{name}.")]
+        if inside:
+            advice = f"It gives {listing(inside)}."
+        elif several:
             advice = f'It stands for {len(several)} signals: use result.match("{name}").'
         else:
             advice = did_you_mean(name, self.signals) or f"Recorded are {listing(self.signals)}."

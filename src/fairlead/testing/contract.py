@@ -18,7 +18,7 @@ from fairlead.component.members import _libraries, show
 from fairlead.component.registry import known_types
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.trace import TraceError
-from fairlead.errors import ModelError
+from fairlead.errors import ModelError, UsageError, shown
 from fairlead.testing.properties import PROPERTIES
 from fairlead.testing.samples import PartAsked, SampleError, families, sample
 from fairlead.testing.settled import Maker, Settled
@@ -83,6 +83,9 @@ def checks(kind: type[Declared], /, **given: Any) -> list[Check]:
 
 def contract(kind: type[Declared], /, **given: Any) -> None:
     """Ask every property of a class. Raises ContractError with all that are broken, one sentence each."""
+    if not isinstance(kind, type):
+        what = f"contract: kind = {shown(kind)} is no class"
+        raise UsageError(f"{what}. Import the class, and give it itself: contract(Spring).")
     broken = [*_unmade(kind, given)] if issubclass(kind, Composite) else []
     asked = checks(kind, **given)
     if not asked and not broken and _is_part(kind):

@@ -37,12 +37,17 @@ def error(study: Study, row: Row) -> float | None:
     return None if None in parts else max(part for part in parts if part is not None)
 
 
+def known_to_be_below(study: Study, row: Row) -> float:
+    """What both errors of a line are known not to be above: themselves, or the floor of its equations."""
+    return max(study.told(errors, row)[0] or 0.0 for errors in (row.numerical, row.modelling))
+
+
 def choose(study: Study, target: float) -> Choice:
     """The fastest line that meets the target, and a sentence."""
     rows = [row for row in study.rows if row.timed.finished and row.rung.equations.axis != "mesh"]
     found = {id(row): size for row in rows if (size := error(study, row)) is not None}
     known = [row for row in rows if id(row) in found]
-    good = sorted((row for row in known if found[id(row)] <= target), key=lambda row: row.timed.cpu)
+    good = sorted((row for row in known if known_to_be_below(study, row) <= target), key=lambda row: row.timed.cpu)
     head = f"{100 * target:g} %: "
     if study.floor > target:
         how = "statistics of tight runs scatter by" if study.sensitive else "the references agree to"

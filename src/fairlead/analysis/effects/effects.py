@@ -10,8 +10,9 @@ the stepping time that the switch saves, negative when it costs more; brief runs
 it is. Lines are sorted by what is gained for what is lost: the cheapest simplification first. A switch that leaves
 every equation as it was is not run (`sameness.py`).
 
-The time that is studied is such that all switches can be judged in the budget; with the last of `window` given it is
-that, and what is likely to matter most goes first (`weights.py`). What was not judged is named.
+The time that is studied is such that all switches can be judged in the budget, but no shorter than what the scene
+comes to in a fiftieth of it: how a line behaves says nothing that is only seen at rest. With the last of `window` given
+it is that. What is likely to matter most goes first (`weights.py`), and what was not judged is named.
 """
 
 from __future__ import annotations
@@ -48,6 +49,7 @@ from fairlead.native import spent_compiling
 START = 0.1  # of the time that is studied is the start transient, where no other is given
 FEWEST = 20  # common times that a window must have
 AT_MOST = 0.5  # of the time left is for the scene as it is, or its more exact run, so that switches are judged too
+AT_LEAST = 0.02  # of the budget is for the scene as it is, also where that leaves no time for all switches
 SHORTEST = 0.2  # s; with less time left no run is begun
 SLOWER, WORTH_WAITING = 5.0, 1.0  # times the scene as it is, s; a switch that takes longer is cut off
 KEPT, CLOSING = 0.97, 1.5  # of the budget is for runs; times what reading the scene took is for start and table
@@ -78,6 +80,7 @@ class Effects:
     untouched: list[str] = field(default_factory=list)  # switches that leave every equation as it was
     left_out: list[str] = field(default_factory=list)
     interrupted: bool = False
+    studied: float = 1.0  # of the time of the run, that was run
 
 
 def effects(
@@ -115,7 +118,8 @@ def effects(
         raise NumericalError(f"{model.netlist.name} itself does not run: {base.reason or base.status}")
     begin = runner.span[0] + START * (runner.span[1] - runner.span[0]) if first is None else first
     whole = runner.span == (run.start, run.stop)
-    found = Effects(model.netlist.name, runner.span, begin, whole, base, Size.of(model.system))
+    found = Effects(model.netlist.name, runner.span, begin, whole, base, Size.of(model.system),
+                    studied=(runner.span[1] - runner.span[0]) / (run.stop - run.start))  # fmt: skip
     judge = _Judge(model, runner, found, units, note)
     try:
         finer = {"run.accuracy": f"{max(FINER * run.accuracy, 1e-12):g}"}
@@ -242,7 +246,7 @@ class _Runner:
             return base
         share = (PLANNED * budget - BESIDE * self.beside * switched) / (USUAL * switched + EXACT)
         key = key_of(self.digest, ("span of effects", budget, self.names, self.span), self.libraries)
-        base = self.kept.get(key, 0.0) or self.run({}, max(share, SHORTEST))
+        base = self.kept.get(key, 0.0) or self.run({}, max(share, AT_LEAST * budget, SHORTEST))
         self.kept.put(key, base)
         start = self.span[0]
         while base.status == "budget" and base.reached > start:  # again where the machine has become slower meanwhile

@@ -23,7 +23,8 @@ QUANTITIES = {
 
 def margins(result: Result, picked: str) -> Table:
     """A row for each quantity of each station, and of the whole line. Raises DamagedResultsError, UsageError."""
-    rows, notes, lines = [], [], of_lines(result)
+    rows, lines = list[tuple[Any, ...]](), of_lines(result)
+    notes = [] if lines else ["the model has no line on a route; limits of the netlist are in result.limits"]
     names = [line.line for line in lines]
     if picked != "*" and not (isinstance(picked, str) and matching(names, picked)):
         raise UsageError(_no_line(result, picked, names))
@@ -62,14 +63,16 @@ def rucks(result: Result) -> Table:
              "along": "m", "place": "m", "station": ""}  # fmt: skip
     found = verdicts(result)
     rows = tuple(tuple(one.get(name) for name in units) for one in found)
-    return Table("rucks", tuple(units), tuple(units.values()), rows, tuple(sentence(one) for one in found))
+    return Table("rucks", tuple(units), tuple(units.values()), rows,
+                 tuple(sentence(one) for one in found) or ("no line of the model has a ruck_force",))  # fmt: skip
 
 
 def limits(result: Result) -> Table:
     """A row for each limit of the netlist. Raises DamagedResultsError."""
     rows = ((one.signal, one.text, one.bound, one.value, one.unit, one.t, one.broken) for one in judged(result))
-    columns = ("signal", "allowed", "bound", "value", "unit", "t", "broken")
-    return Table("limits", columns, ("", "", "", "", "", "s", ""), tuple(rows))
+    columns, found = ("signal", "allowed", "bound", "value", "unit", "t", "broken"), tuple(rows)
+    notes = () if found else ("the model has no limits",)
+    return Table("limits", columns, ("", "", "", "", "", "s", ""), found, notes)
 
 
 def energy(result: Result) -> Table:

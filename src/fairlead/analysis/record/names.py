@@ -55,6 +55,8 @@ def recorded_names(assembly: Assembly) -> Iterator[tuple[Value, str]]:
 def _excused(assembly: Assembly, pattern: str) -> bool:
     """True when the name may be one of a component that could not be made, or of its contacts with one."""
     first = re.split(r"[.\[]", pattern)[0]
+    if first in assembly.netlist.unread:
+        return True
     laid = [(one, two) for one, two, _ in assembly.routings if not {one, two} & assembly.stand_ins]
     routed = {path for both in laid for path in both}
     if first in {path.split(".")[0] for path in assembly.lines if path not in routed}:

@@ -33,6 +33,8 @@ def inside(assembly: Assembly, pattern: str) -> str:
 
 def suggest(pattern: str, names: Sequence[str]) -> tuple[str, str]:
     """The sentence "Did you mean ...?" for a name that no signal has, and what its component does give."""
+    if pattern.lower() in ("all", "everything", "any"):
+        return "", 'All signals are "*".'
     owner, _, last = pattern.rpartition(".")
     here = [name.rpartition(".")[2] for name in names if name.rpartition(".")[0] == owner]
     if owner and here:

@@ -31,9 +31,11 @@ def profile(result: Result, names: Sequence[str], times: Sequence[float]) -> Fig
 
     family, line = _family(result, names)
     times = list(times) or [float(result.t[-1])]
-    if len(times) > MOST_TIMES or not all(result.t[0] <= t <= result.t[-1] for t in times):
+    outside = [t for t in times if not result.t[0] <= t <= result.t[-1]]
+    if len(times) > MOST_TIMES or outside:
         span = f"{result.t[0]:g} to {result.t[-1]:g} s"
-        raise UsageError(f"{len(times)} times were given.\n    A profile has 1 to {MOST_TIMES} within {span}.")
+        told = f"t = {outside[0]:g} s is no time of the run" if outside else f"{len(times)} times were given"
+        raise UsageError(f"profile: {told}.\n    A profile has 1 to {MOST_TIMES} times within {span}.")
     found = result.elements(family, side="right")
     figure: Figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     ax = figure.subplots()
