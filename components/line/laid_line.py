@@ -14,6 +14,7 @@ from fairlead.components.line.on_route import OnRoute
 from fairlead.components.route.sea import LEAST_MARGIN
 from fairlead.components.route.window import Reach
 
+from fairlead.brief import in_a_line
 from fairlead.component.alike import Parts, agree
 from fairlead.component.along import OfLine
 from fairlead.component.assembly import PortRef
@@ -28,6 +29,8 @@ class LaidLine(OfLine):
     body of its own at nodes that are no connectors), `layers`[k] the elements with their tensions, outer layer first.
     `bulkheads` tells which nodes have a contact between the two, and for what piece of line.
     """
+
+    __repr__ = in_a_line
 
     mesh: Mesh
     values: Any

@@ -38,6 +38,22 @@ def test_a_stage_of_a_large_route_shows_itself_in_a_line(model, stage):
     assert type(getattr(model, stage)).__name__ in fits(getattr(model, stage))
 
 
+def test_what_the_stages_of_a_large_route_are_made_of_fits_on_a_screen(model):
+    seen, waiting = set(), [model.assembly, model.flat, model.system]
+    while waiting:
+        thing = waiting.pop()
+        if id(thing) in seen or not type(thing).__module__.startswith("fairlead"):
+            continue
+        seen.add(id(thing))
+        fits(thing)
+        if dataclasses.is_dataclass(thing):
+            for name in vars(thing):
+                value = getattr(thing, name)
+                some = list(value.values()) if isinstance(value, dict) else value
+                waiting += list(some)[:3] if isinstance(some, list | tuple) else [some]
+    assert len(seen) > 30
+
+
 def test_what_a_large_netlist_is_made_of_fits_on_a_screen(model):
     tree = model.sources.tree
     for thing in (model.sources, tree, *tree.entries.values(), *model.netlist.components.values()):

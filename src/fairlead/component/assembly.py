@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
+from fairlead.brief import in_a_line
 from fairlead.component.base import Declared, Expansion
 from fairlead.component.scene import Scene, TooManyParts
 from fairlead.component.values import Values, Variant, variant_of
@@ -59,6 +60,8 @@ class Join(NamedTuple):
 @dataclass(frozen=True)
 class Line:
     """A composite that runs along a route: its path, what it says of itself, and where it was written."""
+
+    __repr__ = in_a_line
 
     path: str
     values: Values

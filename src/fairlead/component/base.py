@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
+from fairlead.brief import in_a_line
 from fairlead.component.answers import (
     COMPONENT,
     COMPOSITE,
@@ -151,6 +152,8 @@ class Expansion:
     `children` holds the Values of each child, as `scene.make(Type, ...)` returns them. `ports` maps
     each outer port to an inner one; `outputs` gives inner outputs an outer name.
     """
+
+    __repr__ = in_a_line
 
     children: dict[str, Any]
     connections: list[tuple[str, ...]]

@@ -83,6 +83,10 @@ class Pattern(NamedTuple):
     rows: Integers
     """[nnz], ascending within a column."""
 
+    def __repr__(self) -> str:
+        """How large it is."""
+        return f"<Pattern of {len(self.starts) - 1} columns, {len(self.rows)} entries>"
+
 
 class AnyPattern(Protocol):
     """What serves as a `Pattern`: anything with these two arrays."""

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from fairlead.brief import in_a_line
 from fairlead.component.dependencies import dependencies
 from fairlead.component.values import Variant
 from fairlead.kernels.structure import Structure
@@ -24,6 +25,8 @@ from fairlead.native import Build, Native, digest, load_or_compile
 @dataclass(frozen=True)
 class Kernel:
     """Compiled code of a class variant; `native` owns the memory it lies in."""
+
+    __repr__ = in_a_line
 
     variant: Variant
     structure: Structure

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.brief import in_a_line
 from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.keys import INPUT, OWN, PORT, RATE, TAU, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
@@ -28,6 +29,8 @@ MASSLESS = 1e12  # inverse mass of a node without mass: light beside everything 
 @dataclass
 class Tables:
     """All tables of the model in one vector; the same table is stored once."""
+
+    __repr__ = in_a_line
 
     rows: list[Floats] = field(default_factory=list)
     at: dict[int, int] = field(default_factory=dict)
@@ -49,6 +52,8 @@ class Tables:
 @dataclass
 class Block:
     """Instances of one variant, in the order of their signal rank."""
+
+    __repr__ = in_a_line
 
     kernel: Kernel
     instances: list[Instance]

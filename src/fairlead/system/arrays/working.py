@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fairlead.brief import in_a_line
 from fairlead.kernels import layout
 from fairlead.system.arrays.blocks import Block, Memory
 
@@ -44,6 +45,8 @@ class Place(NamedTuple):
 @dataclass(frozen=True, eq=False)
 class Working:
     """Where every array lies that a run changes, and what it is at first unless zero."""
+
+    __repr__ = in_a_line
 
     size: int
     places: dict[str, Place]

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairlead.brief import in_a_line
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.system.numbering.sizes import NOMINAL, Floats, nominal_sizes, of_contacts
 from fairlead.system.numbering.unknowns import Numbering
@@ -41,6 +42,8 @@ class Weights:
 @dataclass(frozen=True, eq=False)
 class Scales:
     """What there is to know of a System before the accuracy is: by unknown, shape (n,) each, and by guard."""
+
+    __repr__ = in_a_line
 
     nominal: Floats
     """Sizes that count as 1."""

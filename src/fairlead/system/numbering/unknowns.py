@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
+from fairlead.brief import in_a_line
 from fairlead.component.assembly import Instance, PortRef
 from fairlead.component.declare import SUM, State
 from fairlead.component.keys import PORT, key
@@ -33,6 +34,8 @@ class Unknown:
 @dataclass
 class Numbering:
     """Positions in z and w. `zero` always holds 0, `dump` takes what nobody reads."""
+
+    __repr__ = in_a_line
 
     unknowns: list[Unknown] = field(default_factory=list)
     position: dict[int, int] = field(default_factory=dict)  # group -> unknown
