@@ -59,7 +59,7 @@ class Facts(Protocol):
 
     @property
     def least_guard(self) -> Integers:
-        """[ng]: 1 for guards that are the least of several values, which all must have risen (edges.py)."""
+        """[ng]: 1 for guards that are the least of several values, of which the part remembers that all had risen."""
 
     @property
     def blow_guard(self) -> Integers:

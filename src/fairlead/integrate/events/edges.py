@@ -1,5 +1,7 @@
 """Guards that are the least of several values: below zero at both ends of a trial step, and above it between.
 
+They are looked for where the part remembers that all had risen (`Facts.least_guard`).
+
 Each value is smooth, but their least has an edge where two of them meet, and that is its top. The cubic of bumps.py is
 far below it. The tangents at both ends meet above it, and at it where the values are straight. So that place is asked;
 if the guard is below zero there, its tangent takes the place of that of the end from which it still rises, or to which

@@ -25,7 +25,7 @@ PROBLEM = Struct(
         "n_moves", "n_accelerated",
         # guards of places at which stops are met
         "n_met_guards",
-        # guards that are the least of several values
+        # guards that are the least of several values, which is remembered
         "n_least",
         # what sines are taken of that no error of a step knows
         "n_swings",

@@ -1,4 +1,4 @@
-"""What makes a step of order three, or four: its end is moved by the error of the midpoint rule, by its own factors.
+"""What makes a step of order three: its end is moved by the error of the midpoint rule, found with its own factors.
 
 The step solves M (y1 - y0)/h = f(u), u = (y0 + y1)/2. The formula of Lobatto, of order four, has instead
 
@@ -23,18 +23,16 @@ factor is then zero where z is large (jump_inside.py).
 
 The solve for e is a filter, (1 - h J/(2 M))^-1: e has a share of h J/2 too much. What is driven by a load that changes
 slowly, through something stiff for which the step is still short, has a small y''' and a large J y'', and a step misses
-h J/2 of h J y''/12 that no difference of its ends sees. Where steps end at every switch a third solve takes what the
-filter has added away, to first order (`sharpen`):
+h J/2 of h J y''/12 that no difference of its ends sees. Where steps end at every switch a third solve takes half of what
+the filter has added away (`sharpen`):
 
-    W (g/2) = J e/2 + 4 c            e <- e - g
+    W (g/2) = J e/2 + 4 c            e <- e - g/2
 
-The factor is then
+The factor is then the same (1 + z/2)/(1 - z/2) - w^3/12 + w^4/48: its error is half of the one above, and what is stiff
+is gone with the step. All of it would leave no error of that order, and of what is stiff a third.
 
-    (1 + z/2)/(1 - z/2) - w^3/12 + w^4/24 = e^z + O(z^5)        w = z/(1 - z/2)
-
-never more than one in the left half plane either, and 1/3 where z is large. (Deferred correction: Fox, Proc. R. Soc. A
-190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of the step in place of differences over several
-steps, so that it survives a switch: of our own.)
+(Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of the step
+in place of differences over several steps, so that it survives a switch: of our own.)
 """
 
 from __future__ import annotations
@@ -94,7 +92,7 @@ def move_by_error(problem, point, linear, stepping, h):
 
 @compiled
 def sharpen(problem, point, linear, exchange):
-    """Take from e/2 in b what the filter of its solve has too much, to first order: W (g/2) = J e/2 + 4 c."""
+    """Take from e/2 in b half of what the filter of its solve has too much, to first order: W (g/2) = J e/2 + 4 c."""
     n = problem.n
     b, half, chord_defect = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
@@ -109,7 +107,7 @@ def sharpen(problem, point, linear, exchange):
             b[k] = 0.0
     solve_motion(linear, point.at_b)
     for k in range(n):
-        b[k] = kept[k] - b[k]
+        b[k] = kept[k] - 0.5 * b[k]
 
 
 @compiled

@@ -198,10 +198,18 @@ def latches(blocks: Sequence[Block]) -> Integers:
 
 
 def least(blocks: Sequence[Block]) -> Integers:
-    """1 for every guard that is the least of several values, in any zone."""
+    """1 for every guard that is the least of several values, and whose part remembers that they had risen.
+
+    It stays for good in the zone that the guard leads to, or only tells signals. Others are back in their zone as soon
+    as one of the values has fallen.
+    """
     found: list[bool] = []
     for block in blocks:
-        found += [any(g["values"] > 1 for g in slot) for slot in _sharing(block)] * block.count
+        s = block.kernel.structure
+        tells = not any(key(target).kind == PORT for target in s.targets)
+        final = [not any(guard["name"] for guard in of_zone) for of_zone in s.guards.values()]
+        several = ([g for g in slot if g["values"] > 1] for slot in _sharing(block))
+        found += [any(tells or final[g["to"]] for g in slot) for slot in several] * block.count
     return np.array(found, dtype=np.int64)
 
 

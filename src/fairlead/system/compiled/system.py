@@ -89,7 +89,7 @@ class System:
     limit_guard: Integers  # [ng]: 1 if it bounds the force of its own contact while that holds
     blow_guard: Integers  # [ng]: 1 if an impulse asks it with the speeds before
     latch_guard: Integers  # [ng]: 1 if a part that only tells signals remembers that it fired
-    least_guard: Integers  # [ng]: 1 if it is the least of several values
+    least_guard: Integers  # [ng]: 1 if it is the least of several values, and their having risen is remembered
     kink_guard: Integers  # [ng]: 1 if it leads to the next piece of a continuous table
     linear: bool  # f is linear in the unknowns as long as the zones are frozen
     machine_names: Sequence[str]  # [nz]
