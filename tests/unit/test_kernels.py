@@ -6,10 +6,18 @@ import textwrap
 
 import numpy as np
 import pytest
+import sympy
 
 import fairlead
+from fairlead.component import Component
+from fairlead.component.bundled import bundled
 from fairlead.component.dependencies import dependencies
+from fairlead.component.parameters import make
+from fairlead.component.quantity import watched
+from fairlead.component.registry import load_library
+from fairlead.component.trace import trace
 from fairlead.component.values import variant_of
+from fairlead.describe.specimen import traced_specimen
 from fairlead.errors import ModelError
 
 NETLIST = """\
@@ -62,6 +70,21 @@ def refusal(tmp_path, body, head=""):
         ("match a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
         ("try:\n        f = 2 if a.v == 0 else 1\n    except Exception:\n        f = 9\n    return f, 0", "f = 2 if a.v == 0 else 1",
          "must not branch on values"),
+        ("if 1 - a.v == 0:\n        return 0, 0\n    return 1, -1", "if 1 - a.v == 0:", "must not branch on values"),
+        ("if b.x - a.x != 0:\n        return 0, 0\n    return 1, -1", "if b.x - a.x != 0:", "must not branch on values"),
+        ("return (2 if b.x - a.x else 1), 0", "return (2 if b.x - a.x else 1), 0", "must not branch on values"),
+        ("return (2 if not 2 * a.v else 1), 0", "return (2 if not 2 * a.v else 1), 0", "must not branch on values"),
+        ("return (2 if 2 * a.v in (0, 1) else 1), 0", "return (2 if 2 * a.v in (0, 1) else 1), 0", "must not branch on values"),
+        ("return (2 if 0 * a.v == b.x - a.x else 1), 0", "return (2 if 0 * a.v == b.x - a.x else 1), 0", "must not branch on values"),
+        ("return (2 if (a.v < 0) & (b.v < 0) else 1), 0", "return (2 if (a.v < 0) & (b.v < 0) else 1), 0", "must not branch on values"),
+        ("return (2 if (a.v < 0) == True else 1), 0", "return (2 if (a.v < 0) == True else 1), 0", "must not branch on values"),
+        ("return {1: 1, 0: 0}.get(a.v, 0.5), 0", "return {1: 1, 0: 0}.get(a.v, 0.5), 0", "must not branch on values"),
+        ("return len({0.0, 2 * a.v}), 0", "return len({0.0, 2 * a.v}), 0", "must not branch on values"),
+        ("import collections\n    return len(collections.Counter([a.v, b.v])), 0", "return len(collections.Counter([a.v, b.v])), 0", "must not branch on values"),
+        ("import numpy\n    return (2 if numpy.any([a.v - b.v]) else 1), 0", "return (2 if numpy.any([a.v - b.v]) else 1), 0", "must not branch on values"),
+        ("match 2 * a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
+        ("return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "must not branch on values"),
+        ("return 1j * a.v, 0", "def law(p, a, b):", "gives 1.0*I*port:a:v, which is not a real number"),
         ("import math\n    return math.sin(a.v), 0", "return math.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead.component"),
         ("import numpy\n    return numpy.sin(a.v), 0", "return numpy.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead"),
         ("import sympy\n    return sympy.gamma(a.v), 0", "def law(p, a, b):", "gamma(port:a:v) cannot be compiled"),
@@ -82,6 +105,64 @@ def test_a_law_that_cannot_be_frozen_in_a_step_is_refused_at_its_line(tmp_path, 
     assert says in said
     assert named == line
     assert "scene.yaml:6:3: part: " in said
+
+
+@pytest.mark.parametrize("part", ["law", "guard", "stored", "shared"])
+def test_whoever_branches_on_an_expression_is_refused(tmp_path, part):
+    body = """
+    zones = Zones("off", "on")
+
+    @shared
+    def sized(p, a):
+        return {shared}
+
+    @zone("off", "on")
+    def rest(p, a, b, zone, sized):
+        return Law(a={law}, b=0)
+
+    def stored(p, a):
+        return {stored}
+
+    @guard("off", to="on", unit="m")
+    def meets(p, a):
+        return {guard}
+    """
+    odd = "(1 if 2 * a.x == 1 else 0) * a.x"
+    said, named = refusal(tmp_path, body.format(**{"law": "0", "guard": "a.x", "stored": "0", "shared": "1", part: odd}))
+    assert "must not branch on values" in said
+    assert odd in named
+
+
+def test_a_law_may_compare_words_and_constants(tmp_path):
+    path, libraries = scene(tmp_path, """
+    cap = Choice(("on", "off"), default="on")
+    spare = Parameter("N", default=None)
+    exempt = {"units": "nothing but numbers here"}
+    def law(p, a, b, zone):
+        nothing, three = 0 * a.x, {2: 3.0}[2]
+        assert nothing == 0 and not nothing and zone == "always" and p.spare is None and p.spare == None
+        assert 2 - 2 in (0, 1) and {nothing: 1}[0] == 1
+        f = three * (b.x - a.x) if p.cap == "on" else 0
+        return Law(a=-f, b=f)
+    """)
+    fairlead.load(path, libraries=libraries).check()
+    traced = trace(variant_of(make(load_library(libraries[0]).Mine)))
+    assert str(traced.zones["always"].flows["b"]) == "-3.0*port:a:x + 3.0*port:b:x"
+
+
+def test_no_law_of_the_library_branches_on_an_expression():
+    with watched():
+        for kind in bundled().values():
+            if issubclass(kind, Component) and kind.declaration.laws:
+                traced_specimen(kind)
+
+
+def test_sympy_is_left_as_it_was(tmp_path):
+    before = {kind: dict(vars(kind)) for kind in (sympy.Basic, sympy.Expr, sympy.Integer, sympy.Float)}
+    refusal(tmp_path, "def law(p, a, b):\n    return (2 if a.x - b.x == 0 else 1), 0\n")
+    for kind, had in before.items():
+        now = vars(kind)
+        assert {name for name in had.keys() | now.keys() if had.get(name) is not now.get(name)} <= {"__slotnames__"}
 
 
 def test_a_helper_that_fails_is_told_at_the_line_of_the_law_that_called_it(tmp_path):

@@ -48,7 +48,7 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols terms trace "
-    tracing += "trace_readers values wave piecewise"
+    tracing += "trace_readers values wave piecewise quantity author"
     files = [here / f"{name}.py" for name in tracing.split()]
     files += sorted((here.parent / "kernels").glob("*.py"))
     return "\n".join(file.read_text(encoding="utf-8") for file in files)

@@ -9,6 +9,7 @@ be frozen inside a step; it is refused with the author's file and line.
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -33,6 +34,7 @@ from fairlead.component.hold_rows import (
 )
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
+from fairlead.component.quantity import watched
 from fairlead.component.replies import is_bundled
 from fairlead.component.symbols import TraceError, symbol
 from fairlead.component.terms import LEDGER, terms_of
@@ -87,6 +89,12 @@ class Traced:
 
 def trace(variant: Variant) -> Traced:
     """Run every law and guard of a class variant with symbols. Raises TraceError."""
+    foreign = [one for one in (variant, *_parts(variant)) if not is_bundled(one.type)]
+    with watched() if foreign else contextlib.nullcontext():
+        return _trace(variant, foreign)
+
+
+def _trace(variant: Variant, foreign: list[Variant]) -> Traced:
     has = variant.type.declaration
     zones = {name: _trace_zone(variant, has, name) for name in has.zones}
     check_everywhere(((name, zone.holds) for name, zone in zones.items()), lambda: source_place(variant.type))
@@ -97,7 +105,7 @@ def trace(variant: Variant) -> Traced:
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
         zone.guards += [guard for path in zone.tables if path not in timed for guard in _borders(path, zone)]
-    if foreign := [one for one in (variant, *_parts(variant)) if not is_bundled(one.type)]:
+    if foreign:
         _check_units(variant, has, zones, foreign)
         _check_outputs(variant, has, zones)
     return Traced(variant, zones, tables, timed, _trace_sample(variant, has))
@@ -224,6 +232,8 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     expression = sympy.sympify(value)
     if expression.has(sympy.nan, sympy.zoo, sympy.oo):
         raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not finite")
+    if expression.has(sympy.I):
+        raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not a real number")
     for part in expression.atoms(sympy.Function, sympy.Max, sympy.Min, sympy.Piecewise):
         if not isinstance(part, (*SMOOTH, *KINKED, Unsaid)):
             raise TraceError(f"{place}: {part} cannot be compiled; use the functions of fairlead.component")
