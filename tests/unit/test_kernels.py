@@ -84,6 +84,9 @@ def refusal(tmp_path, body, head=""):
         ("import numpy\n    return (2 if numpy.any([a.v - b.v]) else 1), 0", "return (2 if numpy.any([a.v - b.v]) else 1), 0", "must not branch on values"),
         ("match 2 * a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
         ("return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "must not branch on values"),
+        ("import numpy\n    return numpy.array([a.v]), 0", "def law(p, a, b):", "gives [port:a:v], an array; take one of its numbers, such as x[0]"),
+        ("import numpy\n    return numpy.array(a.v), 0", "def law(p, a, b):", "gives port:a:v, an array; take one of its numbers, such as x.item()"),
+        ("import numpy\n    return Law(a=0, b=0, stored=numpy.array([1.0, 2.0]))", "def law(p, a, b):", "gives [1. 2.], an array"),
         ("return 1j * a.v, 0", "def law(p, a, b):", "gives 1.0*I*port:a:v, which is not a real number"),
         ("import math\n    return math.sin(a.v), 0", "return math.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead.component"),
         ("import numpy\n    return numpy.sin(a.v), 0", "return numpy.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead"),
@@ -131,6 +134,50 @@ def test_whoever_branches_on_an_expression_is_refused(tmp_path, part):
     said, named = refusal(tmp_path, body.format(**{"law": "0", "guard": "a.x", "stored": "0", "shared": "1", part: odd}))
     assert "must not branch on values" in said
     assert odd in named
+
+
+GUARDED = """
+kind = Choice(("plain", "other"), default="plain")
+zones = Zones("off", "on", "far")
+@zone("off", "on", "far")
+def rest(p, a, b):
+    return Law(a=0, b=0)
+@guard("off", "far", to="on", unit="{unit}")
+def meets(p, a, b, zone):
+    {guard}
+"""
+
+
+@pytest.mark.parametrize(
+    ("unit", "guard", "says"),
+    [
+        ("m", "if zone == 'far':\n        return a.x", "the guard 'meets' gives nothing in 'off'; does it lack a return?"),
+        ("m", "return ()", "the guard 'meets' gives nothing in 'off'"),
+        ("m", "import numpy\n    return numpy.array([a.x, b.x])", "gives [port:a:x port:b:x], an array"),
+        ("m", "return [a.x, b.x]", "gives [port:a:x, port:b:x], which is not a number"),
+        ("N", "return a.x - 1", "the guard meets is in N, and is given a.x - 1, which is in m; its unit is not that"),
+        ("m", "return b.v - a.v", "the guard meets is in m, and is given -a.v + b.v, which is in m/s; its unit is not that"),
+        ("N", "return a.x - b.x, a.v", "the guard meets is in N, and is given a.x - b.x, which is in m"),
+    ],
+)  # fmt: skip
+def test_a_guard_gives_numbers_in_its_unit(tmp_path, unit, guard, says):
+    body = GUARDED.format(unit=unit, guard=guard)
+    said, _ = refusal(tmp_path, body if "if zone" not in guard else body.replace('kind = Choice(("plain", "other"), default="plain")', ""))
+    assert says in said
+
+
+@pytest.mark.parametrize(
+    ("unit", "guard"),
+    [
+        ("m", "if p.kind == 'other':\n        return a.x"),  # a choice takes the guard with it
+        ("1", "return a.x - 1"),
+        ("m", "return a.x - b.x, a.v - 1"),  # the unit of one of them
+        ("m", "return -0.5"),
+    ],
+)
+def test_a_guard_may_go_with_a_choice_and_be_of_several_units(tmp_path, unit, guard):
+    path, libraries = scene(tmp_path, GUARDED.format(unit=unit, guard=guard))
+    fairlead.load(path, libraries=libraries).check()
 
 
 def test_a_law_may_compare_words_and_constants(tmp_path):

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
 import sympy
 
 from fairlead.component.author import called_with
@@ -40,6 +41,7 @@ from fairlead.component.symbols import TraceError, symbol
 from fairlead.component.terms import LEDGER, terms_of
 from fairlead.component.trace_readers import PortReader, Recorder
 from fairlead.component.values import Variant
+from fairlead.errors import shown
 
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
@@ -190,11 +192,19 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for label, mark in has.guards.items():
         if name in mark.zones:
             said = called_with(mark.function, arguments | ({"direction": mark.direction} if mark.direction else {}))
-            if said is None:
+            if said is None and _leaves_out(variant):
                 continue  # an effect that is off takes the guard with it
+            if said is None or (isinstance(said, tuple) and not said):
+                place = source_place(mark.function)
+                raise TraceError(f"{place}: the guard {label!r} gives nothing in {name!r}; does it lack a return?")
             values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]
             zone.guards.append(TracedGuard(label, mark.to, mark.unit, values))
     return zone
+
+
+def _leaves_out(variant: Variant) -> bool:
+    """Whether something was chosen or not given that a guard may go with."""
+    return is_bundled(variant.type) or any(one.words or one.absent for one in (variant, *_parts(variant)))
 
 
 def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, sympy.Expr]) -> dict[str, Any]:
@@ -224,6 +234,9 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     place = source_place(function)
     if isinstance(value, PortReader):
         one = f"the port {value.port!r}, which is not a number; take one of its variables, such as {value.such_as}"
+        raise TraceError(f"{place}: {function.__name__} gives {one}")
+    if isinstance(value, np.ndarray):
+        one = f"{shown(str(value))}, an array; take one of its numbers, such as {'x[0]' if value.ndim else 'x.item()'}"
         raise TraceError(f"{place}: {function.__name__} gives {one}")
     if isinstance(value, str | bool) or not (
         isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")
