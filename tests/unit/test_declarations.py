@@ -7,6 +7,7 @@ import re
 from dataclasses import fields
 
 import pytest
+from pydantic import ValidationError
 
 from fairlead.component import Zones, zone
 from fairlead.component.answers import Answers, rows
@@ -38,6 +39,7 @@ REFUSED = {
     "a guard of pass": (TWO + "@guard('on', to='off', unit='m')\ndef leaves(p, a):\n    pass", "gives nothing"),
     "a guard in mm": (TWO + "@guard('on', to='off', unit='mm')\ndef leaves(p, a):\n    return a.x", "its unit is m"),
     "a guard in furlongs": (TWO + "@guard('on', to='off', unit='furlongs')\ndef leaves(p, a):\n    return a.x", "its unit is m"),
+    "a state that starts below its least": (LAW + "\nz = State('m', start=-1.0, least=0.0)", "'z' starts at -1, below its least, 0"),
     "an output in kN": (LAW + "\npull = Output('kN')", "the output 'pull' is in kN, and laws reckon and runs record in SI"),
     "an output in %": (LAW + "\nshare = Output('%')", "the output 'share' is in %, and laws reckon and runs record in SI; declare it in 1"),
     "a state in mm": (LAW + "\nz = State('mm', start=3.0)", "the state 'z' is in mm, and laws reckon and runs record in SI; declare it in m"),
@@ -237,6 +239,18 @@ def test_numbers_of_parameters_in_other_units_than_si_are_turned():
     assert (given["gap"], given["rate"]) == (0.005, 2000.0)
     assert (given["turn"], given["speed"]) == pytest.approx((math.pi / 2, 2 * math.pi))
     assert given["pull"](0.0) == 3000.0
+
+
+@pytest.mark.parametrize(
+    ("options", "written", "word"),
+    [(("1", "2", "3"), 3, "3"), (("1", "2", "3"), 3.0, "3"), (("0.5", "1.0"), 1, "1.0"), (("true", "false"), True, "true")],
+)
+def test_an_option_that_is_a_number_may_be_written_as_one(options, written, word):
+    kind = declare(f"{LAW}\nn = Choice({options!r})")
+    assert make(kind, n=written).n == make(kind, n=word).n == word
+    for other in (4, 0.25, None, "four"):
+        with pytest.raises(ValidationError):
+            make(kind, n=other)
 
 
 def test_the_bundled_classes_declare_in_si():
