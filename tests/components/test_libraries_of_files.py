@@ -191,6 +191,47 @@ def test_a_class_that_takes_the_place_of_another_is_told_by_name(write, tmp_path
     assert told(one, one) == []
 
 
+TWICE = {
+    "a guard": ("    @guard('off', to='on', unit='m')\n    def meets(p, a): return a.x\n" * 2, "Mine: meets"),
+    "a port": ("    a = Translational()\n    a = Rotational()\n", "Mine: a "),
+    "one of several": ("    a, b = Translational(), Translational()\n    b = Rotational()\n", "Mine: b "),
+    "a law": ("    def law(p): return ()\n    def law(p): return Law()\n", "Mine: law"),
+    "a class": ("    x = 1\nclass Mine:\n    y = 1\n", ": Mine is defined"),
+}
+
+
+@pytest.mark.parametrize("name", TWICE)
+def test_what_a_file_defines_twice_is_refused_at_its_line(write, name):
+    body, says = TWICE[name]
+    path = write(mine=f"from fairlead.component import *\nclass Mine(Component):\n{body}")
+    with pytest.raises(ModelError, match=r"mine\.py:[4-6]: .* and in line [2-4]; one of them is lost") as caught:
+        known_types([path])
+    assert says in str(caught.value)
+
+
+def test_what_goes_on_with_a_name_is_not_defined_twice(write):
+    more = """
+    total = 1
+    total = total + 1
+    names = sorted(("b", "a"))
+    names = tuple(names)
+
+    @property
+    def width(self):
+        return 1
+
+    @width.setter
+    def width(self, value):
+        pass
+
+try:
+    class Spare: pass
+except NameError:
+    class Spare: pass
+"""
+    assert types(write(parts=spring() + more)) == ["Volute"]
+
+
 def test_a_class_that_is_given_and_imported_too_is_one(write, tmp_path):
     path = write(one=spring("Bow"), two=spring("Volute", imports="from one import Bow"))
     assert told(path, str(tmp_path / "two.py")) == []

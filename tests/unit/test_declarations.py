@@ -28,7 +28,7 @@ PAIRED = (
 TWO = "zones = Zones('on', 'off')\n@zone('on', 'off')\ndef all(p, a):\n    return (0,)\n"
 REFUSED = {
     "a law beside zones": (TWO + LAW, "there are zones, and `law` is for a class without zones"),
-    "two laws of one zone": (TWO + "@zone('off')\ndef off(p, a):\n    return (0,)", "zone 'off' has two laws, all and off"),
+    "two laws of one zone": (TWO + "@zone('off')\ndef off(p, a):\n    return (0,)", "zone 'off' has two laws, all and off; to replace one of a base class, name it all"),
     "two zones of one name": ("zones = Zones('on', 'on')\n@zone('on')\ndef on(p, a):\n    return (0,)",
                               "there are two zones 'on'; each zone has a name of its own"),
     "zones said twice": (TWO + "more = Zones('on', 'off', 'gone')", "zones and more are Zones both, and a class has one"),

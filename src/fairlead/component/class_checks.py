@@ -120,7 +120,7 @@ def _check_once(cls: type[Declaring]) -> None:
     for name, law in members.items():
         for zone in law.zones if isinstance(law, ZoneLaw) else ():
             other = laws.setdefault(zone, name)
-            said = f"zone {zone!r} has two laws, {other} and {name}; what replaces a law of a base class has its name"
+            said = f"zone {zone!r} has two laws, {other} and {name}; to replace one of a base class, name it {other}"
             demand(cls, other == name, said)
     nearest = next((base for base in cls.__mro__ if "law" in vars(base) or _has_zones(base)), cls)  # may replace others
     said = "there are zones, and `law` is for a class without zones; mark it with @zone, or leave it out"

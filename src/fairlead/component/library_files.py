@@ -1,7 +1,7 @@
 """Which files a library consists of: those it is given as, and those of its author's that they import.
 
-A file may import its neighbours, `from shapes import bow` for a `shapes.py` in the same folder, as a script may. Python
-itself looks in the folder of a script alone, so `beside` has it look there while a library is loaded.
+A file may import its neighbours, the files in the same folder, as a script may. Python itself looks in the folder of a
+script alone, so `beside` has it look there while a library is loaded.
 """
 
 from __future__ import annotations
@@ -54,11 +54,45 @@ def all_files(path: str) -> dict[str, pathlib.Path]:
     return found
 
 
+def said_twice(file: pathlib.Path) -> Iterator[str]:
+    """Names that a class body defines twice, or classes that a file does: the last would count, and nobody be told."""
+    import ast
+
+    try:
+        tree = ast.parse(file.read_bytes())
+    except (SyntaxError, ValueError):  # told by whoever loads it
+        return
+    bodies: list[tuple[str, Sequence[ast.stmt]]] = [("", [one for one in tree.body if isinstance(one, ast.ClassDef)])]
+    bodies += [(f"{one.name}: ", one.body) for one in ast.walk(tree) if isinstance(one, ast.ClassDef)]
+    for of, body in bodies:
+        lines: dict[str, int] = {}
+        for node in body:
+            for name in _defined_by(node):
+                if name in lines:
+                    both = f"is defined here and in line {lines[name]}; one of them is lost"
+                    yield f"{file}:{node.lineno}: {of}{name} {both}"
+                lines[name] = node.lineno
+
+
+def _defined_by(node: Any) -> list[str]:
+    """Names that a statement declares; not what goes on with what a name had, such as a setter or a sum."""
+    import ast
+
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        goes_on = {one.id for each in node.decorator_list for one in ast.walk(each) if isinstance(one, ast.Name)}
+        return [node.name] if not {node.name, "overload"} & goes_on else []
+    if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call | ast.Tuple | ast.GeneratorExp):
+        read = {one.id for one in ast.walk(node.value) if isinstance(one, ast.Name)}
+        names = [one.id for each in node.targets for one in ast.walk(each) if isinstance(one, ast.Name)]
+        return [name for name in names if name not in read]
+    return []
+
+
 @contextmanager
 def beside(file: pathlib.Path, imported: dict[str, pathlib.Path]) -> Iterator[dict[str, ModuleType]]:
     """Meanwhile, imports find the neighbours of a file first; afterwards `sys.modules` knows none of them.
 
-    So libraries in two folders may each have a `shapes.py`. Gives the neighbours, filled at the end.
+    So libraries in two folders may have neighbours of one name. Gives the neighbours, filled at the end.
     """
     folder, neighbours = file.parent, dict[str, ModuleType]()
     mine = {name.partition(".")[0] for name, one in imported.items() if one.is_relative_to(folder)}

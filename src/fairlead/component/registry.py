@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from fairlead.component.base import Declared
 from fairlead.component.bundled import Bundled, bundled, types_in
 from fairlead.component.class_checks import source_place
-from fairlead.component.library_files import all_files, beside, given_files
+from fairlead.component.library_files import all_files, beside, given_files, said_twice
 from fairlead.component.members import defined_by_a_library, defined_in, hide_libraries, replaced, show
 from fairlead.component.replies import is_bundled
 from fairlead.errors import Fault, ModelError
@@ -131,6 +131,8 @@ def _load(path: str, target: pathlib.Path) -> ModuleType:
         before = loaded.__dict__[WRITTEN] if loaded is not None else written
         for each in [one for one, file in imported.items() if before.get(str(file)) != written[str(file)]]:
             sys.modules.pop(each, None)
+    if twice := [Fault(None, f"--library {path}: {said}") for said in said_twice(target)]:
+        raise ModelError(twice)
     spec = importlib.util.spec_from_file_location(name, target)
     if spec is None or spec.loader is None:
         raise ModelError((Fault(None, f"--library {path}: this is no Python file", "Give a .py file."),))
