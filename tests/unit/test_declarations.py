@@ -1,13 +1,22 @@
 """A class that contradicts itself is refused when it is created, at its own file and line."""
+# ruff: noqa: E501 - mistakes and messages read best on one line
 
+import math
 import pathlib
 import re
 from dataclasses import fields
 
 import pytest
+from pydantic import ValidationError
 
+from fairlead.component import Zones, zone
 from fairlead.component.answers import Answers, rows
+from fairlead.component.base import Family
+from fairlead.component.bundled import bundled
 from fairlead.component.class_checks import DeclarationError
+from fairlead.component.in_si import not_in_si, parameters_in_si
+from fairlead.component.parameters import make
+from fairlead.component.piecewise import linear_table
 from fairlead.component.terms import LEDGER
 from fairlead.errors import ModelError
 
@@ -16,7 +25,29 @@ PAIRED = (
     "zones = Zones('off', 'on', 'no', forward=['on'], backward=['no'])\n"
     "@zone('off', 'on', 'no')\ndef all(p, a):\n    return (0,)\n"
 )
+TWO = "zones = Zones('on', 'off')\n@zone('on', 'off')\ndef all(p, a):\n    return (0,)\n"
 REFUSED = {
+    "a law beside zones": (TWO + LAW, "there are zones, and `law` is for a class without zones"),
+    "two laws of one zone": (TWO + "@zone('off')\ndef off(p, a):\n    return (0,)", "zone 'off' has two laws, all and off; to replace one of a base class, name it all"),
+    "two zones of one name": ("zones = Zones('on', 'on')\n@zone('on')\ndef on(p, a):\n    return (0,)",
+                              "there are two zones 'on'; each zone has a name of its own"),
+    "zones said twice": (TWO + "more = Zones('on', 'off', 'gone')", "zones and more are Zones both, and a class has one"),
+    "a guard without a return": (
+        TWO + "@guard('on', to='off', unit='m')\ndef leaves(p, a):\n    a.x - 0.2", "'leaves' gives nothing; does it lack"),
+    "a guard that returns nothing": (
+        TWO + "@guard('on', to='off', unit='m')\ndef leaves(p, a):\n    if p is a:\n        return None\n    a.x", "gives nothing"),
+    "a guard of pass": (TWO + "@guard('on', to='off', unit='m')\ndef leaves(p, a):\n    pass", "gives nothing"),
+    "a guard in mm": (TWO + "@guard('on', to='off', unit='mm')\ndef leaves(p, a):\n    return a.x", "its unit is m"),
+    "a guard in furlongs": (TWO + "@guard('on', to='off', unit='furlongs')\ndef leaves(p, a):\n    return a.x", "its unit is m"),
+    "a state that starts below its least": (LAW + "\nz = State('m', start=-1.0, least=0.0)", "'z' starts at -1, below its least, 0"),
+    "an output in kN": (LAW + "\npull = Output('kN')", "the output 'pull' is in kN, and laws reckon and runs record in SI"),
+    "an output in %": (LAW + "\nshare = Output('%')", "the output 'share' is in %, and laws reckon and runs record in SI; declare it in 1"),
+    "a state in mm": (LAW + "\nz = State('mm', start=3.0)", "the state 'z' is in mm, and laws reckon and runs record in SI; declare it in m"),
+    "an input in rpm": (LAW + "\nasked = Input('rpm', default=1.0)", "the input 'asked' is in rpm, and laws reckon"),
+    "an unknown in kN*m": (LAW + "\nt = Unknown('kN*m')", "the unknown 't' is in kN*m, and laws reckon"),
+    "a table in mm with points": (
+        LAW + "\ng = Table('mm', 'N', default=((0, 1), (5, 2)))", "the default of 'g' is read in SI; declare it in m, not mm"),
+    "a ramp in kN": (LAW + "\nf = Waveform('kN', default={'ramp': {'to': 3, 'over': 1}})", "the default of 'f' is read in SI"),
     "a mirrored guard whose zones have no pair": (
         "zones = Zones('off', 'on')\n@zone('off', 'on')\ndef all(p, a):\n    return (0,)\n"
         "@guard('off', to='on', unit='m', mirrored='meets_no')\n"
@@ -174,6 +205,59 @@ def test_a_contradiction_is_refused_when_the_class_is_created(name):
         declare(body)
     assert says in str(caught.value)
     assert "Mine: " in str(caught.value)
+
+
+def test_zones_may_take_the_place_of_a_law_of_a_base_class_and_not_the_other_way_round():
+    plain = declare(LAW)
+    zoned = type("Zoned", (plain,), {"zones": Zones("on"), "on": zone("on")(lambda p, a: (0,))})
+    assert zoned.declaration.laws.keys() == {"on"}
+    with pytest.raises(DeclarationError, match="`law` is for a class without zones"):
+        type("Again", (zoned,), {"law": plain.law})
+    with pytest.raises(DeclarationError, match="`law` is for a class without zones"):
+        type("Mixed", (plain, declare(TWO)), {})
+    with pytest.raises(DeclarationError, match="zone 'on' has two laws, on and also"):
+        type("More", (zoned,), {"also": zone("on")(lambda p, a: (1,))})
+    assert type("Same", (zoned,), {"on": zone("on")(lambda p, a: (1,))}).declaration.laws["on"](0, 0) == (1,)
+
+
+def test_numbers_of_parameters_in_other_units_than_si_are_turned():
+    kind = declare(
+        LAW + "\ngap = Parameter('mm', default=5.0, least=1.0, most=1000.0, usual=(2.0, 20.0))"
+        "\nrate = Parameter('N/mm', default=2.0, above=0)\nturn = Parameter('deg', default='90 deg', below=180)"
+        "\nspeed = Parameter('rpm', default=60)\nshare = Parameter('%', default=50)\npull = Waveform('kN', default=3.0)"
+        "\nhose = Block({'mass': Parameter('g/m', default=1600)}, '')\nshape = Table('mm', 'kN')"
+    )
+    has = kind.declaration.parameters
+    gap, turn = has["gap"], has["turn"]
+    assert (gap.unit, has["rate"].unit, turn.unit, has["speed"].unit) == ("m", "N/m", "rad", "rad/s")
+    assert (gap.default, gap.least, gap.most, *gap.usual) == pytest.approx((0.005, 0.001, 1.0, 0.002, 0.02))
+    assert (has["rate"].default, has["rate"].above) == (2000.0, 0)
+    assert turn.below == pytest.approx(math.pi)
+    assert (has["share"].unit, has["share"].default, has["pull"].unit, has["pull"].default) == ("1", 0.5, "N", 3000.0)
+    assert (has["hose"].parameters["mass"].default, has["shape"].x, has["shape"].y) == (1.6, "m", "N")
+    given = make(kind, shape=linear_table([0.0, 1.0], [0.0, 1.0])).given
+    assert (given["gap"], given["rate"]) == (0.005, 2000.0)
+    assert (given["turn"], given["speed"]) == pytest.approx((math.pi / 2, 2 * math.pi))
+    assert given["pull"](0.0) == 3000.0
+
+
+@pytest.mark.parametrize(
+    ("options", "written", "word"),
+    [(("1", "2", "3"), 3, "3"), (("1", "2", "3"), 3.0, "3"), (("0.5", "1.0"), 1, "1.0"), (("true", "false"), True, "true")],
+)
+def test_an_option_that_is_a_number_may_be_written_as_one(options, written, word):
+    kind = declare(f"{LAW}\nn = Choice({options!r})")
+    assert make(kind, n=written).n == make(kind, n=word).n == word
+    for other in (4, 0.25, None, "four"):
+        with pytest.raises(ValidationError):
+            make(kind, n=other)
+
+
+def test_the_bundled_classes_declare_in_si():
+    for kind in {*bundled().values(), *Family.everyone}:
+        has = kind.declaration
+        assert not list(not_in_si(has.parameters, has)), kind
+        assert parameters_in_si(has.parameters) == has.parameters, kind
 
 
 def test_a_composite_must_say_what_it_is_made_of():

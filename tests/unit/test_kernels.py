@@ -6,10 +6,18 @@ import textwrap
 
 import numpy as np
 import pytest
+import sympy
 
 import fairlead
+from fairlead.component import Component
+from fairlead.component.bundled import bundled
 from fairlead.component.dependencies import dependencies
+from fairlead.component.parameters import make
+from fairlead.component.quantity import watched
+from fairlead.component.registry import load_library
+from fairlead.component.trace import trace
 from fairlead.component.values import variant_of
+from fairlead.describe.specimen import traced_specimen
 from fairlead.errors import ModelError
 
 NETLIST = """\
@@ -62,6 +70,24 @@ def refusal(tmp_path, body, head=""):
         ("match a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
         ("try:\n        f = 2 if a.v == 0 else 1\n    except Exception:\n        f = 9\n    return f, 0", "f = 2 if a.v == 0 else 1",
          "must not branch on values"),
+        ("if 1 - a.v == 0:\n        return 0, 0\n    return 1, -1", "if 1 - a.v == 0:", "must not branch on values"),
+        ("if b.x - a.x != 0:\n        return 0, 0\n    return 1, -1", "if b.x - a.x != 0:", "must not branch on values"),
+        ("return (2 if b.x - a.x else 1), 0", "return (2 if b.x - a.x else 1), 0", "must not branch on values"),
+        ("return (2 if not 2 * a.v else 1), 0", "return (2 if not 2 * a.v else 1), 0", "must not branch on values"),
+        ("return (2 if 2 * a.v in (0, 1) else 1), 0", "return (2 if 2 * a.v in (0, 1) else 1), 0", "must not branch on values"),
+        ("return (2 if 0 * a.v == b.x - a.x else 1), 0", "return (2 if 0 * a.v == b.x - a.x else 1), 0", "must not branch on values"),
+        ("return (2 if (a.v < 0) & (b.v < 0) else 1), 0", "return (2 if (a.v < 0) & (b.v < 0) else 1), 0", "must not branch on values"),
+        ("return (2 if (a.v < 0) == True else 1), 0", "return (2 if (a.v < 0) == True else 1), 0", "must not branch on values"),
+        ("return {1: 1, 0: 0}.get(a.v, 0.5), 0", "return {1: 1, 0: 0}.get(a.v, 0.5), 0", "must not branch on values"),
+        ("return len({0.0, 2 * a.v}), 0", "return len({0.0, 2 * a.v}), 0", "must not branch on values"),
+        ("import collections\n    return len(collections.Counter([a.v, b.v])), 0", "return len(collections.Counter([a.v, b.v])), 0", "must not branch on values"),
+        ("import numpy\n    return (2 if numpy.any([a.v - b.v]) else 1), 0", "return (2 if numpy.any([a.v - b.v]) else 1), 0", "must not branch on values"),
+        ("match 2 * a.v:\n        case 0: return 0, 0\n    return 1, 0", "case 0: return 0, 0", "must not branch on values"),
+        ("return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "return Law(a=0, b=0, dissipated=(1 if a.v - b.v == 0 else 0))", "must not branch on values"),
+        ("import numpy\n    return numpy.array([a.v]), 0", "def law(p, a, b):", "gives [port:a:v], an array; take one of its numbers, such as x[0]"),
+        ("import numpy\n    return numpy.array(a.v), 0", "def law(p, a, b):", "gives port:a:v, an array; take one of its numbers, such as x.item()"),
+        ("import numpy\n    return Law(a=0, b=0, stored=numpy.array([1.0, 2.0]))", "def law(p, a, b):", "gives [1. 2.], an array"),
+        ("return 1j * a.v, 0", "def law(p, a, b):", "gives 1.0*I*port:a:v, which is not a real number"),
         ("import math\n    return math.sin(a.v), 0", "return math.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead.component"),
         ("import numpy\n    return numpy.sin(a.v), 0", "return numpy.sin(a.v), 0", "import sqrt, exp, sin, ... from fairlead"),
         ("import sympy\n    return sympy.gamma(a.v), 0", "def law(p, a, b):", "gamma(port:a:v) cannot be compiled"),
@@ -82,6 +108,108 @@ def test_a_law_that_cannot_be_frozen_in_a_step_is_refused_at_its_line(tmp_path, 
     assert says in said
     assert named == line
     assert "scene.yaml:6:3: part: " in said
+
+
+@pytest.mark.parametrize("part", ["law", "guard", "stored", "shared"])
+def test_whoever_branches_on_an_expression_is_refused(tmp_path, part):
+    body = """
+    zones = Zones("off", "on")
+
+    @shared
+    def sized(p, a):
+        return {shared}
+
+    @zone("off", "on")
+    def rest(p, a, b, zone, sized):
+        return Law(a={law}, b=0)
+
+    def stored(p, a):
+        return {stored}
+
+    @guard("off", to="on", unit="m")
+    def meets(p, a):
+        return {guard}
+    """
+    odd = "(1 if 2 * a.x == 1 else 0) * a.x"
+    said, named = refusal(tmp_path, body.format(**{"law": "0", "guard": "a.x", "stored": "0", "shared": "1", part: odd}))
+    assert "must not branch on values" in said
+    assert odd in named
+
+
+GUARDED = """
+kind = Choice(("plain", "other"), default="plain")
+zones = Zones("off", "on", "far")
+@zone("off", "on", "far")
+def rest(p, a, b):
+    return Law(a=0, b=0)
+@guard("off", "far", to="on", unit="{unit}")
+def meets(p, a, b, zone):
+    {guard}
+"""
+
+
+@pytest.mark.parametrize(
+    ("unit", "guard", "says"),
+    [
+        ("m", "if zone == 'far':\n        return a.x", "the guard 'meets' gives nothing in 'off'; does it lack a return?"),
+        ("m", "return ()", "the guard 'meets' gives nothing in 'off'"),
+        ("m", "import numpy\n    return numpy.array([a.x, b.x])", "gives [port:a:x port:b:x], an array"),
+        ("m", "return [a.x, b.x]", "gives [port:a:x, port:b:x], which is not a number"),
+        ("N", "return a.x - 1", "the guard meets is in N, and is given a.x - 1, which is in m; its unit is not that"),
+        ("m", "return b.v - a.v", "the guard meets is in m, and is given -a.v + b.v, which is in m/s; its unit is not that"),
+        ("N", "return a.x - b.x, a.v", "the guard meets is in N, and is given a.x - b.x, which is in m"),
+    ],
+)  # fmt: skip
+def test_a_guard_gives_numbers_in_its_unit(tmp_path, unit, guard, says):
+    body = GUARDED.format(unit=unit, guard=guard)
+    said, _ = refusal(tmp_path, body if "if zone" not in guard else body.replace('kind = Choice(("plain", "other"), default="plain")', ""))
+    assert says in said
+
+
+@pytest.mark.parametrize(
+    ("unit", "guard"),
+    [
+        ("m", "if p.kind == 'other':\n        return a.x"),  # a choice takes the guard with it
+        ("1", "return a.x - 1"),
+        ("m", "return a.x - b.x, a.v - 1"),  # the unit of one of them
+        ("m", "return -0.5"),
+    ],
+)
+def test_a_guard_may_go_with_a_choice_and_be_of_several_units(tmp_path, unit, guard):
+    path, libraries = scene(tmp_path, GUARDED.format(unit=unit, guard=guard))
+    fairlead.load(path, libraries=libraries).check()
+
+
+def test_a_law_may_compare_words_and_constants(tmp_path):
+    path, libraries = scene(tmp_path, """
+    cap = Choice(("on", "off"), default="on")
+    spare = Parameter("N", default=None)
+    exempt = {"units": "nothing but numbers here"}
+    def law(p, a, b, zone):
+        nothing, three = 0 * a.x, {2: 3.0}[2]
+        assert nothing == 0 and not nothing and zone == "always" and p.spare is None and p.spare == None
+        assert 2 - 2 in (0, 1) and {nothing: 1}[0] == 1
+        f = three * (b.x - a.x) if p.cap == "on" else 0
+        return Law(a=-f, b=f)
+    """)
+    fairlead.load(path, libraries=libraries).check()
+    traced = trace(variant_of(make(load_library(libraries[0]).Mine)))
+    assert str(traced.zones["always"].flows["b"]) == "-3.0*port:a:x + 3.0*port:b:x"
+
+
+def test_no_law_of_the_library_branches_on_an_expression():
+    with watched():
+        for kind in bundled().values():
+            if issubclass(kind, Component) and kind.declaration.laws:
+                traced_specimen(kind)
+
+
+def test_sympy_is_left_as_it_was(tmp_path):
+    before = {kind: dict(vars(kind)) for kind in (sympy.Basic, sympy.Expr, sympy.Integer, sympy.Float)}
+    refusal(tmp_path, "def law(p, a, b):\n    return (2 if a.x - b.x == 0 else 1), 0\n")
+    for kind, had in before.items():
+        now = vars(kind)
+        assert {name for name in had.keys() | now.keys() if had.get(name) is not now.get(name)} <= {"__slotnames__"}
 
 
 def test_a_helper_that_fails_is_told_at_the_line_of_the_law_that_called_it(tmp_path):

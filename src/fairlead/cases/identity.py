@@ -1,7 +1,8 @@
 """What a case is known by: a hash over everything that decides its row.
 
-Those are the bytes of the netlist and of every file that it names, its values, the library files, the version and the
-code of fairlead, the figures and the budget. The order of values does not count.
+Those are the bytes of the netlist and of every file that it names, its values, the library files with all that they
+import of their author's, the version and the code of fairlead, the figures and the budget. The order of values does
+not count.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fairlead.analysis.cost.kept_runs import bytes_of, code_digest
+from fairlead.analysis.cost.kept_runs import code_digest
+from fairlead.component.library_files import all_files
 from fairlead.netlist.netlist import Value
 
 if TYPE_CHECKING:
@@ -30,7 +32,7 @@ def scene_digest(model: Model, asked: Iterable[object]) -> str:
     for file in named_files(model):
         state.update(file.read_bytes())
     for library in model.libraries:
-        state.update(bytes_of(Path(library)))
+        state.update(b"\0".join(file.read_bytes() for file in all_files(library).values()))
     for part in asked:
         state.update(f"{part!r}\0".encode())
     return state.hexdigest()

@@ -64,6 +64,7 @@ from fairlead.component.given import (
     Text,
     Waveform,
 )  # fmt: skip
+from fairlead.component.in_si import not_in_si, parameters_in_si
 from fairlead.component.kinds_of_answers import method
 from fairlead.component.replies import held_to, is_bundled
 from fairlead.component.slips import misspelt
@@ -92,7 +93,12 @@ class Declared:
             cls.declaration = _collect(members)
             _check_answers(cls, members)
             cls.answers = held_to(answers_of(members, _sort(cls)), cls)
+            written = cls.declaration.parameters
+            if not is_bundled(cls):  # the tests ask those
+                cls.declaration = replace(cls.declaration, parameters=parameters_in_si(written))
             check(cls, _sort(cls))
+            for what in () if is_bundled(cls) else not_in_si(written, cls.declaration):
+                demand(cls, False, what)
             check_fixed(cls)
 
 

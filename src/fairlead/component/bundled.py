@@ -167,7 +167,13 @@ def types_in(module: object) -> dict[str, type[Declared]]:
         return {module.__name__: module}
     found = {n: v for n, v in vars(module).items() if isinstance(v, type) and issubclass(v, Component | Composite)}
     here = getattr(module, "__name__", None)
-    return {n: v for n, v in found.items() if v.__module__ == here and not n.startswith("_") and _is_type(v)}
+    own = {n: v for n, v in found.items() if not n.startswith("_") and _is_type(v)}
+    return {n: v for n, v in own.items() if v.__module__ == here or _is_within(v.__module__, str(here))}
+
+
+def _is_within(module: str, package: str) -> bool:
+    """A library that is a package offers what its `__init__.py` imports of its own modules."""
+    return package.startswith("fairlead_library_") and module.startswith(f"{package}.")
 
 
 def _is_type(kind: type[Declared]) -> bool:

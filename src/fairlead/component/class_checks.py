@@ -5,13 +5,14 @@ A mistake is a DeclarationError with file and line of the class.
 
 from __future__ import annotations
 
+import dis
 import inspect
 from collections.abc import Callable, Iterable
 from typing import Any, ClassVar, Protocol
 
 from fairlead.component.answers import COMPOSITE, EVERYWHERE, Answers
 from fairlead.component.declaration import Declaration
-from fairlead.component.declare import ROLES, USED_UP, Discrete, Output, State
+from fairlead.component.declare import ROLES, USED_UP, Carries, Discrete, Output, State, ZoneLaw, Zones
 from fairlead.component.defaults import misfits, odd_kinds
 from fairlead.component.given import Block, Table
 from fairlead.component.kinds_of_answers import arguments_of
@@ -76,6 +77,7 @@ def check(cls: type[Declaring], sort: str) -> None:
         return
     if sort == EVERYWHERE:  # a part of laws
         return
+    _check_once(cls)
     _check_directions(cls)
     for name in has.zones:
         demand(cls, name in has.laws, f"zone {name!r} has no law")
@@ -100,6 +102,46 @@ def check(cls: type[Declaring], sort: str) -> None:
             demand(cls, zone in has.zones, f"guard {name!r} names {zone!r}, which is not in zones {has.zones}")
         demand(cls, mark.to not in mark.zones, f"guard {name!r} leads from {mark.to!r} to itself")
         _check_arguments(cls, mark.function, has.arguments)
+        if not gives_something(mark.function):
+            place = source_place(mark.function)
+            raise DeclarationError(f"{place}: {cls.__name__}: the guard {name!r} gives nothing; does it lack a return?")
+
+
+def _check_once(cls: type[Declaring]) -> None:
+    """What can be there once only is not there twice: the last would count, and nobody be told."""
+    members = members_of(cls)
+    for kind in (Zones, Carries):
+        twice = [name for name, one in members.items() if isinstance(one, kind)]
+        demand(cls, len(twice) < 2, f"{' and '.join(twice)} are {kind.__name__} both, and a class has one")
+    zones = cls.declaration.zones
+    same = sorted({name for name in zones if zones.count(name) > 1})
+    demand(cls, not same, f"there are two zones {', '.join(map(repr, same))}; each zone has a name of its own")
+    laws: dict[str, str] = {}
+    for name, law in members.items():
+        for zone in law.zones if isinstance(law, ZoneLaw) else ():
+            other = laws.setdefault(zone, name)
+            said = f"zone {zone!r} has two laws, {other} and {name}; to replace one of a base class, name it {other}"
+            demand(cls, other == name, said)
+    nearest = next((base for base in cls.__mro__ if "law" in vars(base) or _has_zones(base)), cls)  # may replace others
+    said = "there are zones, and `law` is for a class without zones; mark it with @zone, or leave it out"
+    demand(cls, not (inspect.isfunction(vars(nearest).get("law")) and any(map(_has_zones, cls.__mro__))), said)
+
+
+def _has_zones(cls: type) -> bool:
+    return any(isinstance(one, Zones) for one in vars(cls).values())
+
+
+def gives_something(function: Callable[..., Any]) -> bool:
+    """False for a function that can only end without a `return VALUE`."""
+    before: dis.Instruction | None = None
+    for step in dis.get_instructions(inspect.unwrap(function)):
+        if step.opname == "RETURN_CONST" and step.argval is not None:
+            return True
+        nothing = before is not None and before.opname == "LOAD_CONST" and before.argval is None
+        if step.opname == "RETURN_VALUE" and not nothing:
+            return True
+        before = step
+    return False
 
 
 def _check_directions(cls: type[Declaring]) -> None:

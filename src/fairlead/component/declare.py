@@ -137,7 +137,8 @@ class State:
     """An unknown of the component's own with a rate. `start` is a number or a parameter's name.
 
     `nominal` is a size of it that matters, likewise a number or a name; the accuracy is relative to that. Without, the
-    unit decides. `least` is a bound below which its law does not let it fall.
+    unit decides. `least` is a bound below which its law does not let it fall: a promise of the author, by which the
+    contract chooses the states that it asks with. A run does not hold a state there; a zone of its own does.
     """
 
     unit: str

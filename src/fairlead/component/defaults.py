@@ -70,6 +70,8 @@ def misfits(has: Declaration) -> Iterator[str]:
     for name, kept in has.states.items():
         if isinstance(kept.nominal, int | float) and not kept.nominal > 0:
             yield f"{name!r} has the size {kept.nominal:g}; a size is above zero"
+        if isinstance(kept.least, int | float) and isinstance(kept.start, int | float) and kept.start < kept.least:
+            yield f"{name!r} starts at {kept.start:g}, below its least, {kept.least:g}"
     for name, state in starting.items():
         if not isinstance(state.start, str) and not _number(state.start):
             yield f"{name!r} starts at {state.start!r}; write a number, or the name of a parameter"

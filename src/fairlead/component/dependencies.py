@@ -1,7 +1,8 @@
 """Everything the code of a class depends on, as text to be hashed, without running or tracing it.
 
 Followed are the functions of the class and its bases and, through the names they use, helpers, constants
-and classes in any file, the user's and ours alike. A module used as `module.f` counts with its whole source.
+and classes in any file, the user's and ours alike. A module used as `module.f` counts with its whole source, and an
+author's also with what it imports.
 Third-party packages count through their versions (see `native.digest`).
 """
 
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import operator
 import pathlib
 import sys
 from collections.abc import Mapping
@@ -48,7 +50,7 @@ def _framework() -> str:
     """Source of the files that trace laws and write kernels."""
     here = pathlib.Path(__file__).parent
     tracing = "declare given declaration dimensions answers base functions holding hold_rows keys symbols terms trace "
-    tracing += "trace_readers values wave piecewise"
+    tracing += "trace_readers values wave piecewise quantity author"
     files = [here / f"{name}.py" for name in tracing.split()]
     files += sorted((here.parent / "kernels").glob("*.py"))
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
@@ -76,7 +78,7 @@ def _of(thing: Any, seen: set[int]) -> list[str]:
             for p in [name, *_of(member, seen)]
         ]
     if isinstance(thing, ModuleType):
-        return [_module_source(thing)] if not _third_party(thing.__name__) else []
+        return _of_module(thing, seen)
     if isinstance(thing, Mapping):
         return [p for key, value in thing.items() for p in [repr(key), *_of(value, seen)]]
     if isinstance(thing, list | tuple):
@@ -131,6 +133,17 @@ def _of_code(code: CodeType, seen: set[int]) -> list[str]:
 def _names(code: CodeType) -> list[str]:
     inner = [name for c in code.co_consts if isinstance(c, CodeType) for name in _names(c)]
     return [*code.co_names, *inner]
+
+
+def _of_module(module: ModuleType, seen: set[int]) -> list[str]:
+    """The source of a module; of an author's also what it has from others, which may have been edited instead."""
+    if _third_party(module.__name__):
+        return []
+    text = _module_source(module)
+    if module.__name__.partition(".")[0] == "fairlead":
+        return [text]
+    named = sorted(((n, v) for n, v in vars(module).items() if not n.startswith("__")), key=operator.itemgetter(0))
+    return [text, *(p for name, value in named for p in [name, *_of(value, seen)])]
 
 
 def _module_source(module: ModuleType) -> str:

@@ -74,7 +74,7 @@ class Wrong:
 
 
 def misfits(variant: Variant, zones: Mapping[str, Any]) -> Iterator[Wrong]:
-    """All that does not fit in the zones (TracedZone) of a class variant; a guard is asked for its sums alone."""
+    """All that does not fit in the zones (TracedZone) of a class variant."""
     has, answers = variant.type.declaration, variant.type.answers
     for name, zone in zones.items():
         law = has.laws[name]
@@ -90,9 +90,16 @@ def misfits(variant: Variant, zones: Mapping[str, Any]) -> Iterator[Wrong]:
             if what := misfit_as(value, "J" if line == "stored" else "W", line, variant):
                 yield Wrong(what, name, method)
         for guard in zone.guards:
-            for value in [] if guard.table else guard.values:
-                if what := misfit(value, variant):
-                    yield Wrong(what, name, has.guards[guard.name].function, has.guards[guard.name].direction)
+            if not guard.table and (what := _of_guard(guard, variant)):
+                yield Wrong(what, name, has.guards[guard.name].function, has.guards[guard.name].direction)
+
+
+def _of_guard(guard: Any, variant: Variant) -> str:
+    """What does not fit within a guard, or between it and its unit; one of several values must have that."""
+    if inner := next(filter(None, (misfit(value, variant) for value in guard.values)), ""):
+        return inner
+    outer = [misfit_as(value, guard.unit, f"the guard {guard.name}", variant) for value in guard.values]
+    return outer[0] if all(outer) else ""
 
 
 def _called(term: str, has: Declaration) -> str:

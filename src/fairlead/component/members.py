@@ -38,6 +38,19 @@ def show(number: int) -> None:
     _put_in_view((*(one for one in Family.shown if one != number), number))
 
 
+def defined_in(number: int) -> list[type[Family]]:
+    """The members that one library defines."""
+    return _libraries[number]
+
+
+def replaced(number: int) -> Iterator[tuple[type[Family], type[Family]]]:
+    """(a member of one library, the one of its word that it takes the place of, of those that are in view)."""
+    hidden = {one for n, members in enumerate(_libraries) if n == number or n not in Family.shown for one in members}
+    for member in _libraries[number]:
+        same = (one for one in Family.everyone if one not in hidden and one.word == member.word)
+        yield from ((member, one) for one in same if _head(one) is _head(member))
+
+
 def in_order(place: Mapping[tuple[str, str], int]) -> None:
     """Put the members of the bundled library first, in the order told by module and name, whenever they were imported.
 

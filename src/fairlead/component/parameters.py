@@ -47,7 +47,7 @@ from fairlead.component.values import Values
 from fairlead.component.waveforms import read_waveform, waveform_schema
 from fairlead.errors import Fault, Location
 from fairlead.netlist.netlist import Value
-from fairlead.quantities import digits, wanted, whole, written
+from fairlead.quantities import NUMBER, digits, wanted, whole, written
 
 NAME = re.compile(r"^[a-z][a-z0-9_]{0,59}$")
 STRICT = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, hide_input_in_errors=True)
@@ -189,7 +189,7 @@ def _field(declared: Any, only: Collection[str] | None = None) -> tuple[Any, Any
     elif isinstance(declared, Effect):
         kind = Annotated[Literal["on", "off"], BeforeValidator(switch)]
     elif isinstance(declared, Choice):
-        kind = Literal[declared.options]
+        kind = Annotated[Literal[declared.options], BeforeValidator(functools.partial(_option, declared.options))]
     elif isinstance(declared, Count):
         kind = Annotated[int, BeforeValidator(whole), Field(ge=declared.least, le=declared.most)]
     elif isinstance(declared, Name | File | Entries | Text | Matrix):
@@ -250,6 +250,15 @@ def _named(value: Any) -> str:
     if not isinstance(value, str) or not NAME.match(value):
         raise ValueError("write a name of small letters, digits and underscores")
     return value
+
+
+def _option(options: tuple[str, ...], value: Any) -> Any:
+    """The option that a number or a truth value is meant for, such as "3" for 3; else the value."""
+    if isinstance(value, bool):
+        return str(value).lower() if str(value).lower() in options else value
+    if not isinstance(value, int | float):
+        return value
+    return next((one for one in options if NUMBER.fullmatch(one) and float(one) == value), value)
 
 
 def _text(value: Any) -> str:

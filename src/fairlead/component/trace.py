@@ -9,11 +9,13 @@ be frozen inside a step; it is refused with the author's file and line.
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
 import sympy
 
 from fairlead.component.author import called_with
@@ -33,11 +35,13 @@ from fairlead.component.hold_rows import (
 )
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
+from fairlead.component.quantity import watched
 from fairlead.component.replies import is_bundled
 from fairlead.component.symbols import TraceError, symbol
 from fairlead.component.terms import LEDGER, terms_of
 from fairlead.component.trace_readers import PortReader, Recorder
 from fairlead.component.values import Variant
+from fairlead.errors import shown
 
 SMOOTH = (sympy.exp, sympy.log, sympy.sin, sympy.cos, sympy.tan, sympy.tanh, sympy.atan)  # what a kernel can compute
 KINKED = (sympy.Abs, sympy.Max, sympy.Min, sympy.sign)  # so these too, in guards and in outputs that are recorded only
@@ -87,6 +91,12 @@ class Traced:
 
 def trace(variant: Variant) -> Traced:
     """Run every law and guard of a class variant with symbols. Raises TraceError."""
+    foreign = [one for one in (variant, *_parts(variant)) if not is_bundled(one.type)]
+    with watched() if foreign else contextlib.nullcontext():
+        return _trace(variant, foreign)
+
+
+def _trace(variant: Variant, foreign: list[Variant]) -> Traced:
     has = variant.type.declaration
     zones = {name: _trace_zone(variant, has, name) for name in has.zones}
     check_everywhere(((name, zone.holds) for name, zone in zones.items()), lambda: source_place(variant.type))
@@ -97,7 +107,7 @@ def trace(variant: Variant) -> Traced:
     timed = [p for p in tables if any(z.tables.get(p) == symbol("t") for z in zones.values())]
     for zone in zones.values():
         zone.guards += [guard for path in zone.tables if path not in timed for guard in _borders(path, zone)]
-    if foreign := [one for one in (variant, *_parts(variant)) if not is_bundled(one.type)]:
+    if foreign:
         _check_units(variant, has, zones, foreign)
         _check_outputs(variant, has, zones)
     return Traced(variant, zones, tables, timed, _trace_sample(variant, has))
@@ -182,11 +192,19 @@ def _trace_zone(variant: Variant, has: Declaration, name: str) -> TracedZone:
     for label, mark in has.guards.items():
         if name in mark.zones:
             said = called_with(mark.function, arguments | ({"direction": mark.direction} if mark.direction else {}))
-            if said is None:
+            if said is None and _leaves_out(variant):
                 continue  # an effect that is off takes the guard with it
+            if said is None or (isinstance(said, tuple) and not said):
+                place = source_place(mark.function)
+                raise TraceError(f"{place}: the guard {label!r} gives nothing in {name!r}; does it lack a return?")
             values = [_expression(v, mark.function) for v in (said if isinstance(said, tuple) else (said,))]
             zone.guards.append(TracedGuard(label, mark.to, mark.unit, values))
     return zone
+
+
+def _leaves_out(variant: Variant) -> bool:
+    """Whether something was chosen or not given that a guard may go with."""
+    return is_bundled(variant.type) or any(one.words or one.absent for one in (variant, *_parts(variant)))
 
 
 def _arguments(variant: Variant, has: Declaration, zone: str, reads: dict[str, sympy.Expr]) -> dict[str, Any]:
@@ -217,6 +235,9 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     if isinstance(value, PortReader):
         one = f"the port {value.port!r}, which is not a number; take one of its variables, such as {value.such_as}"
         raise TraceError(f"{place}: {function.__name__} gives {one}")
+    if isinstance(value, np.ndarray):
+        one = f"{shown(str(value))}, an array; take one of its numbers, such as {'x[0]' if value.ndim else 'x.item()'}"
+        raise TraceError(f"{place}: {function.__name__} gives {one}")
     if isinstance(value, str | bool) or not (
         isinstance(value, int | float | sympy.Expr) or hasattr(value, "__float__")
     ):
@@ -224,6 +245,8 @@ def _expression(value: Any, function: Callable[..., Any]) -> sympy.Expr:
     expression = sympy.sympify(value)
     if expression.has(sympy.nan, sympy.zoo, sympy.oo):
         raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not finite")
+    if expression.has(sympy.I):
+        raise TraceError(f"{place}: {function.__name__} gives {expression}, which is not a real number")
     for part in expression.atoms(sympy.Function, sympy.Max, sympy.Min, sympy.Piecewise):
         if not isinstance(part, (*SMOOTH, *KINKED, Unsaid)):
             raise TraceError(f"{place}: {part} cannot be compiled; use the functions of fairlead.component")

@@ -21,6 +21,7 @@ import numpy as np
 
 import fairlead.sealed as sealed
 from fairlead.analysis.cost.timed_run import Timed
+from fairlead.component.library_files import all_files
 
 MOST_BYTES = 500_000_000
 FORMAT = "fairlead-timed-2"
@@ -87,14 +88,13 @@ def key_of(digest: str, parts: Iterable[object], libraries: Iterable[str] = ()) 
     for part in parts:
         hash.update(f"{part!r}\0".encode())
     for library in libraries:
-        hash.update(bytes_of(pathlib.Path(library)))
+        hash.update(b"\0".join(file.read_bytes() for file in all_files(library).values()))
     return hash.hexdigest()
 
 
 def bytes_of(path: pathlib.Path) -> bytes:
-    """The bytes of a Python file, or of all of a folder in the order of their paths."""
-    files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
-    return b"\0".join(file.read_bytes() for file in files if file.is_file())
+    """The bytes of all Python files of a folder in the order of their paths."""
+    return b"\0".join(file.read_bytes() for file in sorted(path.rglob("*.py")) if file.is_file())
 
 
 @functools.cache

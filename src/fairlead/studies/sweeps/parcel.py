@@ -11,6 +11,7 @@ from pathlib import Path
 
 from fairlead.cases.cases import Cases
 from fairlead.cases.identity import named_files
+from fairlead.component.library_files import all_files
 from fairlead.errors import UsageError
 from fairlead.model import Model
 from fairlead.studies.sweeps.job import Job
@@ -51,9 +52,7 @@ class Parcel:
         libraries = []
         for number, (name, files) in enumerate(self.libraries):
             place = folder / f"library_{number}" / name
-            _write(
-                place if len(files) != 1 or "" not in files else place.parent, {k or name: v for k, v in files.items()}
-            )
+            _write(place.parent if "" in files else place, {k or name: v for k, v in files.items()})
             libraries.append(str(place))
         scene = folder / "scene"
         _write(scene, self.tables or {})
@@ -65,10 +64,13 @@ class Parcel:
 
 
 def _library(path: str) -> tuple[str, Files]:
-    """A file under the name "", or the Python files of a folder by their paths in it."""
+    """A file under the name "" and the neighbours that it imports, or the Python files of a folder by their paths."""
     file = Path(path)
     if not file.is_dir():
-        return file.name, {"": file.read_bytes()}
+        folder = file.resolve().parent
+        beside = [one for one in all_files(path).values() if one != file.resolve() and one.is_relative_to(folder)]
+        neighbours = {one.relative_to(folder).as_posix(): one.read_bytes() for one in beside}
+        return file.name, {"": file.read_bytes(), **neighbours}
     return file.name, {one.relative_to(file).as_posix(): one.read_bytes() for one in sorted(file.rglob("*.py"))}
 
 
