@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.declare import THERMAL
 from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import OWN, PORT, key
 from fairlead.component.terms import terms_of
 from fairlead.component.values import Variant, parameter
 from fairlead.kernels import layout
+from fairlead.testing.power import at_tied_motion, massive, power_in, power_met, power_of, rates_of
 from fairlead.testing.rig import Rig
 from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
@@ -91,21 +91,31 @@ def as_written(make: Maker, rng: np.random.Generator) -> None:
             dict(zip(world.structure.outputs, world.ask(layout.OUTPUT, at), strict=False)),
         )
         scale = max((abs(flow) for flow in flows.values()), default=0.0)  # what is zero is a difference of such
+        added = _of_relations(world, at)
         for name, value in said.items():
             have = flows.get(f"port:{name}", flows.get(f"own:{name}", outputs.get(name)))
-            if not isinstance(value, Hold | HoldPosition) and have is not None and not _close(
-                have.real, float(value), scale if name in has.unknowns else 0.0
-            ):
-                raise ContractError(
-                    f"{world.where(at)}: the kernel gives {name} = {have.real:.9g}, the law {float(value):.9g}"
-                )
+            if isinstance(value, Hold | HoldPosition) or have is None:
+                continue  # `hold` has no number; see `derivatives`
+            have, rough = have.real - added.get(name, 0.0), name in has.unknowns or name in added
+            if not _close(have, float(value), scale if rough else 0.0):
+                said_here = f"the kernel gives {name} = {have:.9g}, the law {float(value):.9g}"
+                raise ContractError(f"{world.where(at)}: {said_here}")
+
+
+def _of_relations(world: World, at: Instant) -> dict[str, float]:
+    """What relations of positions put on ports beside what the law gives: minus their force times the ratio there."""
+    added: dict[str, float] = {}
+    for unknown in world.structure.positions:
+        for port, ratio in world.held(at)[unknown].items():
+            added[port] = added.get(port, 0.0) - float(np.real(at.values[f"own:{unknown}"])) * ratio
+    return added
 
 
 def balance(make: Maker, rng: np.random.Generator) -> None:
     """What the two ports of a massless two-port take in sums to zero, unless it holds speeds at a ratio, as a gear."""
     for world, at in _settled(make):
         ports = world.kind.declaration.ports
-        if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or _massive(world) or world.prescribed:
+        if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or massive(world) or world.prescribed:
             return
         if world.structure.positions:  # its ratio is no number, and its power is zero: see `energy`
             return
@@ -137,7 +147,7 @@ def dissipates(make: Maker, rng: np.random.Generator) -> None:
         if f"dissipates {world.zone(at)}" in world.kind.answers.exempt:
             continue
         power = world.ask(layout.OUTPUT, at)[-2].real
-        if power < -ROUNDING * max(1.0, _power_met(world, at)):
+        if power < -ROUNDING * max(1.0, power_met(world, at)):
             raise ContractError(
                 f"{world.where(at)}: dissipated is {power:.6g} W; a component cannot dissipate less than nothing"
             )
@@ -147,12 +157,18 @@ def energy(make: Maker, rng: np.random.Generator) -> None:
     """Power in = rate of stored energy + dissipated - supplied."""
     for world, at in _settled(make):
         if world.kind.answers.ties is not None:
-            return  # a rigid tie passes on what it takes in; it has no law to say so
-        taken = _power_in(world, at, rates := _rates(world, at, rng))
+            tied = at_tied_motion(world, at)
+            if tied is None:
+                continue
+            at = tied
+        rates = rates_of(world, at, rng)
+        if rates is None:  # what it stores follows a force that holds, whose rate is not known here
+            continue
+        taken = power_in(world, at, rates)
         stored = world.ask(layout.OUTPUT, at.shifted(rates, STEP * 1j))[-3]
         dissipated, supplied = (float(x) for x in world.ask(layout.OUTPUT, at)[-2:].real)
         rate = stored.imag / STEP
-        told, scale = rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))
+        told, scale = rate + dissipated - supplied, max(power_met(world, at), abs(taken), abs(rate))
         if not _close(taken, told, scale):
             raise ContractError(
                 f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
@@ -162,14 +178,14 @@ def energy(make: Maker, rng: np.random.Generator) -> None:
 
 def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, scale: float) -> str:
     """What would close the ledger: other signs, or any line of it at all."""
-    taken = _power_in(world, at, dict(rates))
+    taken = power_in(world, at, dict(rates))
     if not any(_ledger_lines(world)):
         lines = "stored= [J], dissipated= or supplied= [W]"
         return f". No law has a line of the ledger: add {lines} to Law(...), or methods of these names"
     if _close(taken, -told, scale):
         return ". With the opposite sign it would close: a port takes in what acts on the component there, +pull at b"
     for name in world.kind.declaration.ports:
-        without = _power_of(world, at, rates, name)
+        without = power_of(world, at, rates, name)
         if without and _close(taken - 2 * without, told, scale):
             return f". With the opposite sign of what {name} takes in it would close"
     return ""
@@ -343,52 +359,6 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         function = has.shared[name].function
         return function(**{each: _argument(world, at, each) for each in _names(function)})
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
-
-
-def _inertia(world: World) -> Mapping[str, float]:
-    method = world.kind.answers.inertia
-    return method(world.of) if method else {}
-
-
-def _massive(world: World) -> bool:
-    return bool(_inertia(world)) or world.kind.answers.ties is not None
-
-
-def _rates(world: World, at: Instant, rng: np.random.Generator) -> dict[str, float]:
-    """Time derivatives of all inputs: positions move, bodies accelerate, states go as the law says."""
-    flows, rates = world.flows(at), {"t": 1.0}
-    for name, port in world.kind.declaration.ports.items():
-        if port.domain.mechanical:
-            rates[f"port:{name}:x"] = at.values[f"port:{name}:v"]
-            rates[f"port:{name}:v"] = at.values[f"port:{name}:a"].real
-        else:
-            rates[f"port:{name}:x"] = float(rng.normal())
-    return rates | {f"own:{name}": flows[f"own:{name}"].real for name in world.kind.declaration.states}
-
-
-def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
-    """Flow times rate over all ports, with the inertia of the component and the reaction of a prescribed motion."""
-    return sum(_power_of(world, at, rates, name) for name in world.kind.declaration.ports)
-
-
-def _power_of(world: World, at: Instant, rates: Mapping[str, float], name: str) -> float:
-    """The same of one port; heat is a power by itself, told where it is made."""
-    if world.kind.declaration.ports[name].domain is THERMAL:
-        return 0.0
-    flows, port = world.flows(at), world.kind.declaration.ports[name]
-    across = "v" if port.domain.mechanical else "x"
-    flow = flows[f"port:{name}"].real if f"port:{name}" in flows else 0.0
-    flow += _inertia(world).get(name, 0.0) * rates[f"port:{name}:{across}"]
-    if name in world.prescribed:
-        flow -= at.values[f"port:{name}:R"]
-    return float(flow * at.values[f"port:{name}:{across}"])
-
-
-def _power_met(world: World, at: Instant) -> float:
-    """The largest product of a flow and a speed, the scale of rounding."""
-    flows = world.flows(at)
-    speeds = [abs(v) for one, v in at.values.items() if key(one).part in ("v", "x")]
-    return max((abs(f) for f in flows.values()), default=0.0) * max(speeds, default=0.0)
 
 
 def _mirrored(at: Instant) -> Instant:

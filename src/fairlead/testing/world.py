@@ -8,7 +8,7 @@ force that keeps its slip at zero. Positions and speeds are given; nothing moves
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -176,8 +176,7 @@ class World:
             if not fired:
                 return self.solve(self._at_rest(here))
             here = self._follow(here, fired[0])
-        circle = " -> ".join(dict.fromkeys(path[-6:])) + f" -> {path[-1]}"
-        raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle}")
+        raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle_of(path)}")
 
     def risen(self, at: Instant) -> list[dict[str, Any]]:
         """Guards of the zone in force that are above zero."""
@@ -201,13 +200,13 @@ class World:
         held = self.held(at)
         if not held:
             return at
-        values, slips = dict(at.values), dict(zip(self.structure.targets, self.ask(layout.SLIP, at), strict=True))
-        for unknown, rates in held.items():
-            give = sum(c**2 / self.masses[port] for port, c in rates.items() if port in self.bodies)
-            for port, c in rates.items():
-                if port in self.bodies:
-                    values[f"port:{port}:v"] += np.real(slips[f"own:{unknown}"]) * c / self.masses[port] / give
-        return at.having(values)
+        values, slips = at.values, dict(zip(self.structure.targets, self.ask(layout.SLIP, at), strict=True))
+        rows = np.array([[np.real(rates.get(port, 0.0)) for port in self.bodies] for rates in held.values()])
+        given = rows / np.array([self.masses[port] for port in self.bodies])  # speed of each body for a unit of impulse
+        taken = np.array([np.real(slips[f"own:{unknown}"]) for unknown in held])
+        changes = given.T @ np.linalg.lstsq(given @ rows.T, taken, rcond=None)[0]
+        speeds = {f"port:{port}:v": change for port, change in zip(self.bodies, changes, strict=True)}
+        return at.having(values | {speed: values[speed] + change for speed, change in speeds.items()})
 
     def _residual(self, at: Instant) -> list[Any]:
         flows, held = self.flows(at), self.held(at)
@@ -233,6 +232,17 @@ class World:
         }
         free = {p: (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies}
         return given | {f"port:{p}:{k}": a for p, a in free.items() for k in "aU"}
+
+
+def circle_of(path: Sequence[str]) -> str:
+    """The zones that come again and again at the end of a path, once round: "off -> on -> off"."""
+    passed = [zone for zone, before in zip(path, ["", *path], strict=False) if zone != before]  # pieces change as well
+    for length in range(1, len(passed) // 2 + 1):
+        if passed[-length:] == passed[-2 * length : -length]:
+            once = passed[-length:]
+            first = min(range(length), key=lambda k: passed.index(once[k]))  # where it was entered
+            return " -> ".join([*once[first:], *once[:first], once[first]])
+    return " -> ".join([*passed[-6:]])
 
 
 def _around(rng: np.random.Generator, most: float) -> float:
