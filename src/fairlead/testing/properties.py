@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,10 +17,11 @@ import numpy as np
 
 from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
-from fairlead.component.keys import OWN, PORT, key
+from fairlead.component.keys import PORT, key
 from fairlead.component.terms import terms_of
 from fairlead.component.values import Variant, parameter
 from fairlead.kernels import layout
+from fairlead.testing.oddness import must_be_odd
 from fairlead.testing.power import at_tied_motion, massive, power_in, power_met, power_of, rates_of
 from fairlead.testing.rig import Rig
 from fairlead.testing.settled import Maker, in_pieces
@@ -274,27 +274,7 @@ def instances(make: Maker, rng: np.random.Generator) -> None:
 
 def odd(make: Maker, rng: np.random.Generator) -> None:
     """A component with a slip takes in the opposite when everything moves and pushes the other way."""
-    for world, at in _anywhere(make, rng, alone=True):
-        if "slip" not in world.structure.outputs:
-            return
-        start, zones = world.zone(at), world.kind.declaration.zones
-        ends = [*_end(world, at, start), *_end(world, _mirrored(at), zones.mirrored(start))]
-        if len(ends) < 2:
-            continue
-        one, other = ends
-        # With no motion at all either direction may claim the instant, as on landing; the forces must agree even so.
-        moves = any(value != 0 for one, value in at.values.items() if key(one).is_speed)
-        if moves and zones.mirrored(world.zone(one)) != world.zone(other):
-            raise ContractError(
-                f"{world.where(one)}: with every motion and force reversed it is in zone {world.zone(other)}"
-            )
-        for port in world.kind.declaration.ports:
-            there, back = (world.flows(x).get(f"port:{port}", 0.0) for x in (one, other))
-            if not _close(there.real, -back.real):
-                raise ContractError(
-                    f"{world.where(one)}: {port} takes in {there.real:.6g}, and {back.real:.6g} with every motion "
-                    "reversed; friction is odd in slip"
-                )
+    must_be_odd(lambda: _anywhere(make, rng, alone=True), make().kind)
 
 
 _ALL = (
@@ -359,8 +339,3 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         function = has.shared[name].function
         return function(**{each: _argument(world, at, each) for each in _names(function)})
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
-
-
-def _mirrored(at: Instant) -> Instant:
-    turned = {one: -value if key(one).kind in (PORT, OWN) else value for one, value in at.values.items()}
-    return replace(at, values=turned, loads={name: -load for name, load in at.loads.items()})
