@@ -8,6 +8,7 @@ from fairlead.component import (
     Parameter,
     Rotational,
     State,
+    Thermal,
     Translational,
     Unknown,
     Zones,
@@ -173,3 +174,59 @@ def test_the_ledger_of_ports_that_are_tied_is_asked_at_motions_that_the_ties_all
     for wrong in (WrongGeared, PushedTie):
         with pytest.raises(ContractError, match="energy is not accounted for"):
             ask(wrong, "energy")
+
+
+class Conductor(Component):
+    a, b, c = Thermal(), Thermal(), Thermal()
+    one, other = Parameter("W/K", above=0), Parameter("W/K", above=0)
+
+    def law(p, a, b, c):
+        first, second = p.one * (a.temperature - b.temperature), p.other * (b.temperature - c.temperature)
+        return Law(a=first, b=second - first, c=-second)
+
+
+class Uphill(Conductor):
+    def law(p, a, b, c):
+        first, second = p.one * (b.temperature - a.temperature), p.other * (c.temperature - b.temperature)
+        return Law(a=first, b=second - first, c=-second)
+
+
+class UphillWhenOpen(Component):
+    a, b = Thermal(), Thermal()
+    conductance = Parameter("W/K", above=0)
+    zones = Zones("shut", "open")
+
+    @zone("shut")
+    def shut(p):
+        return 0, 0
+
+    @zone("open")
+    def leads(p, a, b):
+        heat = p.conductance * (a.temperature - b.temperature)
+        return -heat, heat
+
+    @guard("shut", to="open", unit="K")
+    def opens(p, a, b):
+        return a.temperature - b.temperature
+
+    @guard("open", to="shut", unit="K")
+    def shuts(p, a, b):
+        return b.temperature - a.temperature
+
+
+class HeatPump(Component):
+    """Moves heat at a rate of its own, from cold to hot as well."""
+
+    a, b = Thermal(), Thermal()
+    heat = Parameter("W", above=0)
+
+    def law(p):
+        return p.heat, -p.heat
+
+
+def test_heat_that_only_flows_from_cold_to_hot_is_told():
+    ask(Conductor, "dissipates")
+    ask(HeatPump, "dissipates")
+    for wrong in (Uphill, UphillWhenOpen):
+        with pytest.raises(ContractError, match="heat flows from cold to hot"):
+            ask(wrong, "dissipates")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from fairlead.component.keys import key
 from fairlead.kernels import layout
 from fairlead.testing.world import STEP, Instant, World
 
+ROUNDING = 1e-9  # of the largest of several heat flows
 STORED = -3  # its place among what an instance says beside its outputs
 
 
@@ -92,6 +93,22 @@ def power_met(world: World, at: Instant) -> float:
     flows = world.flows(at)
     speeds = [abs(v) for one, v in at.values.items() if key(one).part in ("v", "x")]
     return max((abs(f) for f in flows.values()), default=0.0) * max(speeds, default=0.0)
+
+
+def heat_falls(world: World, at: Instant) -> Iterator[float]:
+    """Heat times the temperature it falls by, of a part that has thermal ports only and keeps all heat; else nothing.
+
+    What the ports take in sums to zero, so it is the sum of temperature times heat, from any zero of temperature.
+    """
+    has, flows = world.kind.declaration, world.flows(at)
+    if len(has.ports) < 2 or any(port.domain is not THERMAL for port in has.ports.values()) or has.inputs:
+        return
+    heats = {name: flows[f"port:{name}"].real for name in has.ports if f"port:{name}" in flows}
+    most = max(map(abs, heats.values()), default=0.0)
+    if most > 0 and abs(sum(heats.values())) <= ROUNDING * most:
+        fall = sum(heat * at.values[f"port:{name}:x"] for name, heat in heats.items())
+        if abs(fall) > ROUNDING * most:
+            yield float(fall)
 
 
 def at_tied_motion(world: World, at: Instant) -> Instant | None:

@@ -9,7 +9,7 @@ one says so, with the reason, for all of it or for one zone or option:
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,13 +21,16 @@ from fairlead.component.keys import PORT, key
 from fairlead.component.terms import terms_of
 from fairlead.component.values import Variant, parameter
 from fairlead.kernels import layout
+from fairlead.testing.borders import at_borders, follow, must_let_go, under_loads
 from fairlead.testing.oddness import must_be_odd
-from fairlead.testing.power import at_tied_motion, massive, power_in, power_met, power_of, rates_of
+from fairlead.testing.power import at_tied_motion, heat_falls, massive, power_in, power_met, power_of, rates_of
+from fairlead.testing.reach import all_reached, begins, idle_guards, not_met, other_parameters, reached, unled
 from fairlead.testing.rig import Rig
 from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
 INSTANCES, INSTANTS = 4, 12  # per variant; each instant is taken through all zones
+BORDERS = 1  # instants of an instance in each zone from which speeds are brought to the borders of the zone
 ROUNDING = 1e-9  # relative to the largest number met; laws lose a few digits by cancellation, no more
 KEPT = (
     ("d_signals", layout.PARTIALS_SIGNALS, layout.SIGNALS),
@@ -142,8 +145,10 @@ def _at_a_ratio(world: World, at: Instant) -> bool:
 
 
 def dissipates(make: Maker, rng: np.random.Generator) -> None:
-    """Dissipated power is never negative, in the zones that the guards allow."""
+    """Dissipated power is never negative, in the zones that the guards allow, and heat does not only flow uphill."""
+    uphill: dict[str, list[tuple[float, World, Instant]]] = {}
     for world, at in _settled(make):
+        uphill.setdefault(world.zone(at), []).extend((fall, world, at) for fall in heat_falls(world, at))
         if f"dissipates {world.zone(at)}" in world.kind.answers.exempt:
             continue
         power = world.ask(layout.OUTPUT, at)[-2].real
@@ -151,6 +156,10 @@ def dissipates(make: Maker, rng: np.random.Generator) -> None:
             raise ContractError(
                 f"{world.where(at)}: dissipated is {power:.6g} W; a component cannot dissipate less than nothing"
             )
+    for met in uphill.values():  # one that pumps heat, at a rate of its own, meets instants of either kind
+        if len(met) >= INSTANTS and all(fall < 0 for fall, _, _ in met):
+            _, world, at = met[0]
+            raise ContractError(f"{world.where(at)}: heat flows from cold to hot, at this instant and all others")
 
 
 def energy(make: Maker, rng: np.random.Generator) -> None:
@@ -192,7 +201,7 @@ def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, s
 
 
 @functools.lru_cache(maxsize=4)  # a property asks several instances of one variant
-def _traced(variant: Variant) -> Mapping[str, Any]:
+def traced_zones(variant: Variant) -> Mapping[str, Any]:
     """The traced zones of a variant."""
     from fairlead.component.trace import trace
 
@@ -201,43 +210,84 @@ def _traced(variant: Variant) -> Mapping[str, Any]:
 
 def _ledger_lines(world: World) -> Iterator[bool]:
     """Whether the laws of a class give a line of the ledger, zone by zone."""
-    return (any(zone.ledger.values()) for zone in _traced(world.rig.variant).values())
+    return (any(zone.ledger.values()) for zone in traced_zones(world.rig.variant).values())
 
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
-    """From every zone, at any instant, the guards lead to a zone in which none has risen."""
-    for _ in _settled(make, tell=True):
-        pass
+    """From every zone, at any instant, the guards lead to a zone in which none has risen.
+
+    So they do at an instant at which a speed reaches the border of its zone, as when a slip comes to rest; not of a
+    class that says it cannot hold (`can_hold`).
+    """
+    seen: dict[tuple[int, str], int] = {}
+    for world, end in _settled(make, tell=True):
+        if not world.zoned or not world.kind.answers.can_hold:
+            continue
+        follow(world, end)
+        which = id(world), world.zone(end)
+        seen[which] = seen.get(which, 0) + 1
+        if seen[which] <= BORDERS:
+            for border in under_loads(world, end):
+                follow(world, border)
 
 
 def zones_reached(make: Maker, rng: np.random.Generator) -> None:
-    """Some motion leads to every zone: none is dead, none is left out."""
+    """Guards lead to every zone from the one in which it begins, and some motion stays there."""
     world = make()
-    missing = set(world.structure.zones)
+    if not world.zoned:
+        return
+    must_let_go(world)
+    named = {name.partition(" ")[2] for name in world.kind.answers.exempt if name.startswith("zones_reached ")}
+    wanted, begin, met = set(world.structure.zones) - named, {begins(world), *named}, set(named)
+    led, seen = set[tuple[str, str]](), set[tuple[str, str]]()
+
+    def all_met() -> bool:
+        return met >= wanted and reached(begin, led) >= wanted
+
+    def look(world: World, ends: Iterable[Instant]) -> None:
+        met.update(world.zone(end) for end in ends)
+        led.update(world.led)
+        seen.update(world.seen)
+        begin.add(begins(world))
+
     for there, end in _settled(make):
-        missing.discard(there.zone(end))
-        if not missing:
-            return
+        look(there, [end])
     for _ in range(40):
+        if met >= wanted:
+            break
         world = make()
         for at in (world.draw(rng) for _ in range(INSTANTS)):
             for zone in world.structure.zones:
-                missing -= {world.zone(end) for end in _end(world, at, zone)}
-            if not missing:
-                return
-    names = ", ".join(sorted(missing))
-    raise ContractError(
-        f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there. The search of "
-        f"{(INSTANCES + 40) * INSTANTS} random instants has ended, which does not say that there is none: give "
-        f"parameters at which the zone is met, contract({world.kind.__name__}, name=...) or asked_with, or say "
-        "why in exempt"
-    )
+                look(world, _ends_beside(world, at, zone))
+            if met >= wanted:
+                break
+    if unmet := wanted - met:
+        raise ContractError(f"{world.rig.variant.label}: {not_met(world, unmet, (INSTANCES + 40) * INSTANTS)}")
+    if not all_met() and (left := wanted - all_reached(make, rng, begin, led)):
+        raise ContractError(f"{world.rig.variant.label}: {unled(world, left, begin)}")
+    if idle := idle_guards(make, rng, seen):
+        zone, name = idle[0]
+        raise ContractError(
+            f"{world.rig.variant.label}: guard {name} can never fire in zone {zone}: it is above zero at no instant of "
+            f"a wide search. {other_parameters(world)}"
+        )
+
+
+def _ends_beside(world: World, at: Instant, zone: str) -> Iterator[Instant]:
+    """Where the guards lead from a zone, and from the borders of speeds there."""
+    for end in _end(world, at, zone):
+        yield end
+        for border in at_borders(world, end):
+            try:
+                yield follow(world, border)
+            except CircleError:
+                continue
 
 
 def outputs_given(make: Maker, rng: np.random.Generator) -> None:
     """Every declared output is given in some zone."""
     world = make()
-    zones = _traced(world.rig.variant).values()
+    zones = traced_zones(world.rig.variant).values()
     for name in world.kind.declaration.outputs:
         if not any(name in zone.outputs for zone in zones):
             raise ContractError(f"{world.rig.variant.label}: output {name} is declared and given by no law")
@@ -248,7 +298,7 @@ def units(make: Maker, rng: np.random.Generator) -> None:
     from fairlead.component.dimensions import misfits
 
     world = make()
-    for wrong in misfits(world.rig.variant, _traced(world.rig.variant)):
+    for wrong in misfits(world.rig.variant, traced_zones(world.rig.variant)):
         raise ContractError(f"{world.rig.variant.label} in zone {wrong.zone}: {wrong.what}")
 
 

@@ -33,6 +33,10 @@ class ContractError(AssertionError):
     """A property that a component breaks, in a sentence."""
 
 
+class ContractRemark(UserWarning):
+    """What is allowed and may not be meant."""
+
+
 class CircleError(ContractError):
     """Zones that do not settle."""
 
@@ -65,6 +69,8 @@ class World:
     of: Values
     masses: dict[str, float]
     rig: Rig = field(init=False)
+    led: set[tuple[str, str]] = field(init=False, default_factory=set)  # from which zone guards led to which
+    seen: set[tuple[str, str]] = field(init=False, default_factory=set)  # (zone, guard) of those that had risen
 
     def __post_init__(self) -> None:
         """Set the instance up on a rig of its own."""
@@ -175,7 +181,9 @@ class World:
             fired = self.risen(here)
             if not fired:
                 return self.solve(self._at_rest(here))
-            here = self._follow(here, fired[0])
+            self.seen |= {(path[-1], guard["name"]) for guard in fired}
+            here = self.follow(here, fired[0])
+            self.led.add((path[-1], self.zone(here)))
         raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle_of(path)}")
 
     def risen(self, at: Instant) -> list[dict[str, Any]]:
@@ -190,7 +198,8 @@ class World:
         zone = f" in zone {self.zone(at)}" if self.zoned else ""
         return f"{self.rig.variant.label}{zone} ({inputs})"
 
-    def _follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
+    def follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
+        """The instant with the zone or the piece that a guard leads to, at rest where that holds."""
         zones = list(at.zones)
         zones[guard["machine"]] = guard["to"] if guard["to"] >= 0 else zones[guard["machine"]] + guard["step"]
         return self._at_rest(at.but(zones))
