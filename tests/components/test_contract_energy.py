@@ -4,6 +4,8 @@ import pytest
 
 from fairlead.component import (
     Component,
+    Electrical,
+    Hydraulic,
     Law,
     Parameter,
     Rotational,
@@ -134,6 +136,53 @@ def test_energy_stored_that_follows_an_unknown_and_is_wrong_is_told():
 
     with pytest.raises(ContractError, match="energy is not accounted for"):
         ask(Half, "energy")
+
+
+class Gas(Component):
+    """A bladder keeps its port at the pressure of the gas, p V^n; what flows in follows from what it is joined to."""
+
+    port = Hydraulic()
+    pressure, volume = Parameter("Pa", above=0), Parameter("m^3", default=1e-3, above=0)
+    exponent = Parameter("1", default=1.4, above=1)
+    gas = State("m^3", start="volume", nominal="volume", least=1e-6)
+    flow = Unknown("m^3/s")
+
+    def law(p, port, gas, flow):
+        pressure = p.pressure * (p.volume / gas) ** p.exponent
+        return Law(port=flow, gas=-flow, flow=port.pressure - pressure, stored=pressure * gas / (p.exponent - 1))
+
+
+class WrongGas(Gas):
+    def law(p, port, gas, flow):
+        pressure = p.pressure * (p.volume / gas) ** p.exponent
+        return Law(port=flow, gas=-flow, flow=port.pressure - pressure, stored=pressure * gas)
+
+
+class Cells(Component):
+    """Keep two ports at a difference of voltage."""
+
+    plus, minus = Electrical(), Electrical()
+    voltage, resistance = Parameter("V", above=0), Parameter("ohm", above=0)
+    first, second = Unknown("A"), Unknown("A")
+
+    def law(p, plus, minus, first, second):
+        return Law(plus=first, minus=-second, first=plus.voltage - minus.voltage - p.voltage, second=first - second,
+                   supplied=-first * p.voltage)  # fmt: skip
+
+
+class Undetermined(Cells):
+    def law(p, plus, minus, first, second):
+        return Law(plus=p.voltage / p.resistance, minus=-p.voltage / p.resistance, second=first - second,
+                   first=plus.voltage - minus.voltage - p.voltage)  # fmt: skip
+
+
+def test_an_unknown_flow_may_keep_the_potential_of_its_port():
+    ask(Gas, "as_written", "energy", "settles")
+    ask(Cells, "as_written", "balance", "energy", "settles")
+    with pytest.raises(ContractError, match="energy is not accounted for"):
+        ask(WrongGas, "energy")
+    with pytest.raises(ContractError, match="the law does not determine its unknown first, second"):
+        ask(Undetermined, "energy")
 
 
 class Geared(Component):

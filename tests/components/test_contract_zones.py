@@ -1,5 +1,7 @@
 """Zones in the contract: circles of them, zones that nothing leads to, and guards that cannot fire."""
 
+import pathlib
+import re
 import warnings
 
 import pytest
@@ -20,6 +22,7 @@ from fairlead.component import (
     zone,
 )  # fmt: skip
 from fairlead.testing import ContractError, ContractRemark, checks, contract
+from fairlead.testing.properties import PROPERTIES
 from fairlead.testing.world import circle_of
 
 
@@ -332,3 +335,9 @@ def test_an_output_that_one_zone_leaves_out_is_remarked():
     with warnings.catch_warnings():
         warnings.simplefilter("error", ContractRemark)
         contract(Stop)
+
+
+def test_the_page_has_a_row_for_every_property_that_exempt_may_name():
+    page = (pathlib.Path(__file__).parents[2] / "docs" / "components.md").read_text(encoding="utf-8")
+    section = page.partition("## Does it keep the contract?")[2]
+    assert re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE) == list(PROPERTIES)

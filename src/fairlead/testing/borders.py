@@ -17,6 +17,7 @@ from fairlead.component.keys import key
 from fairlead.component.symbols import symbol
 from fairlead.component.values import Variant
 from fairlead.kernels import layout
+from fairlead.testing.rig import traced_zones
 from fairlead.testing.world import AT_ZERO, PASSES, STEP, CircleError, ContractError, Instant, World, circle_of
 
 SHARES = (0.3, 0.7, 0.97, 1.03, 1.5, -0.7)  # of the force that resists motion: below it, above it, and back
@@ -72,6 +73,11 @@ def follow(world: World, at: Instant) -> Instant:
     )
 
 
+def is_at_border(world: World, at: Instant) -> bool:
+    """Whether a guard of speeds is zero there and rises on."""
+    return _next(world, at) is not None
+
+
 def _next(world: World, at: Instant) -> dict[str, Any] | None:
     """The first guard that has risen, or is zero and rises on."""
     values = world.ask(layout.GUARD, at)
@@ -102,10 +108,8 @@ def _of_speeds(world: World, at: Instant) -> dict[int, dict[str, float]]:
 @functools.lru_cache(maxsize=64)
 def _speed_guards(variant: Variant) -> tuple[tuple[int, tuple[str, str]], ...]:
     """Place and (zone, name) of guards of one value that is made of speeds and parameters."""
-    from fairlead.component.trace import trace
-
     found = []
-    for zone, traced in trace(variant).zones.items():
+    for zone, traced in traced_zones(variant).items():
         for place, guard in enumerate(traced.guards):
             read = [key(s.name) for value in guard.values for s in value.free_symbols]
             moving = [one for one in read if not one.is_fixed]
@@ -116,9 +120,7 @@ def _speed_guards(variant: Variant) -> tuple[tuple[int, tuple[str, str]], ...]:
 
 def must_let_go(world: World) -> None:
     """Refuse friction that slides with a force of its own and holds any load: nothing leads out but a slip."""
-    from fairlead.component.trace import trace
-
-    zones = trace(world.rig.variant).zones
+    zones = traced_zones(world.rig.variant)
     for name, zone in zones.items():
         for unknown, row in zone.holds.items():
             if row.gap is not None or row.impulse == row.slip:  # it takes any impulse, and may well hold any load

@@ -21,7 +21,8 @@ from fairlead.component.replies import BUNDLED
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError
-from fairlead.testing.properties import PROPERTIES, traced_zones
+from fairlead.testing.properties import PROPERTIES
+from fairlead.testing.rig import traced_zones
 from fairlead.testing.samples import PartAsked, SampleError, families, sample
 from fairlead.testing.settled import Maker, Settled
 from fairlead.testing.world import ContractError, ContractRemark, World

@@ -59,7 +59,10 @@ def _of_unknowns(world: World, at: Instant, rates: Mapping[str, float]) -> dict[
     leans = any(_derivative(world, at, {one: 1.0}, row) for one in known & at.values.keys() for row in targets)
     if leans:
         return None
-    return dict(zip(targets, np.linalg.solve(np.array(slopes), -np.array(forced)).tolist(), strict=True))
+    try:
+        return dict(zip(targets, np.linalg.solve(np.array(slopes), -np.array(forced)).tolist(), strict=True))
+    except np.linalg.LinAlgError:  # a flow into a port whose potential the law keeps
+        return None
 
 
 def _derivative(world: World, at: Instant, rates: Mapping[str, float], what: str) -> float:

@@ -8,7 +8,6 @@ one says so, with the reason, for all of it or for one zone or option:
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any
@@ -19,13 +18,13 @@ from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
 from fairlead.component.keys import PORT, key
 from fairlead.component.terms import terms_of
-from fairlead.component.values import Variant, parameter
+from fairlead.component.values import parameter
 from fairlead.kernels import layout
-from fairlead.testing.borders import at_borders, follow, must_let_go, under_loads
+from fairlead.testing.borders import at_borders, follow, is_at_border, must_let_go, under_loads
 from fairlead.testing.oddness import must_be_odd
 from fairlead.testing.power import at_tied_motion, heat_falls, massive, power_in, power_met, power_of, rates_of
 from fairlead.testing.reach import all_reached, begins, idle_guards, not_met, other_parameters, reached, unled
-from fairlead.testing.rig import Rig
+from fairlead.testing.rig import Rig, traced_zones
 from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
@@ -200,14 +199,6 @@ def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, s
     return ""
 
 
-@functools.lru_cache(maxsize=4)  # a property asks several instances of one variant
-def traced_zones(variant: Variant) -> Mapping[str, Any]:
-    """The traced zones of a variant."""
-    from fairlead.component.trace import trace
-
-    return trace(variant).zones
-
-
 def _ledger_lines(world: World) -> Iterator[bool]:
     """Whether the laws of a class give a line of the ledger, zone by zone."""
     return (any(zone.ledger.values()) for zone in traced_zones(world.rig.variant).values())
@@ -223,7 +214,8 @@ def settles(make: Maker, rng: np.random.Generator) -> None:
     for world, end in _settled(make, tell=True):
         if not world.zoned or not world.kind.answers.can_hold:
             continue
-        follow(world, end)
+        if is_at_border(world, end):
+            follow(world, end)
         which = id(world), world.zone(end)
         seen[which] = seen.get(which, 0) + 1
         if seen[which] <= BORDERS:

@@ -15,8 +15,9 @@ import numpy as np
 from fairlead.component.base import Declared
 from fairlead.component.given import Choice, Parameter
 from fairlead.component.keys import key
-from fairlead.component.trace import TracedGuard, TracedZone
+from fairlead.component.trace import TracedGuard
 from fairlead.kernels import layout
+from fairlead.testing.rig import traced_zones
 from fairlead.testing.settled import in_pieces
 from fairlead.testing.world import AT_ZERO, STEP, Instant, World
 
@@ -79,7 +80,7 @@ def _is_optional(kind: type[Declared]) -> bool:
 
 def _constant(world: World) -> Iterator[tuple[str, str]]:
     """Steps whose guard no motion, signal or state changes."""
-    for zone, traced in _zones(world).items():
+    for zone, traced in traced_zones(world.rig.variant).items():
         for guard in traced.guards:
             if guard.to and _is_fixed(guard):
                 yield zone, guard.to
@@ -89,12 +90,6 @@ def _is_fixed(guard: TracedGuard) -> bool:
     return all(key(s.name).is_fixed for value in guard.values for s in value.free_symbols)
 
 
-def _zones(world: World) -> dict[str, TracedZone]:
-    from fairlead.component.trace import trace
-
-    return trace(world.rig.variant).zones
-
-
 def idle_guards(
     make: Callable[[], World], rng: np.random.Generator, seen: set[tuple[str, str]]
 ) -> list[tuple[str, str]]:
@@ -102,7 +97,7 @@ def idle_guards(
     world = make()
     left = {
         (zone, guard.name)
-        for zone, traced in _zones(world).items()
+        for zone, traced in traced_zones(world.rig.variant).items()
         for guard in traced.guards
         if guard.to and not _is_fixed(guard)
     } - seen

@@ -149,16 +149,21 @@ class World:
     def solve(self, at: Instant) -> Instant:
         """The instant with the own unknowns and the accelerations that belong to its zone. Newton, analytic slopes."""
         unknowns = [f"own:{name}" for name in self._told_here()]
-        values = dict(at.values)
+        told, values = len(unknowns), dict(at.values)
         for _ in range(30 if unknowns else 0):
             here = at.having(values)
             residual = np.array(self._residual(here))
-            slopes = [np.imag(self._residual(here.shifted({key: 1.0}, STEP * 1j))) / STEP for key in unknowns]
             try:
-                change = np.linalg.solve(np.array(slopes).T, -residual.real)
-            except np.linalg.LinAlgError:
-                names = ", ".join(key[4:] for key in unknowns)
-                raise ContractError(f"{self.where(here)}: the law does not determine its unknown {names}") from None
+                change = np.linalg.solve(self._slopes(here, unknowns), -residual.real)
+            except np.linalg.LinAlgError:  # singular, or wider by potentials that unknowns keep
+                unknowns += [] if len(unknowns) > told else self._kept(here)
+                slopes = self._slopes(here, unknowns)
+                sizes = np.abs(slopes).max(axis=1, keepdims=True)
+                sizes[sizes == 0] = 1.0
+                change, _, rank, _ = np.linalg.lstsq(slopes / sizes, -residual.real / sizes[:, 0], rcond=None)
+                if rank < told:
+                    names = ", ".join(self._told_here())
+                    raise ContractError(f"{self.where(here)}: the law does not determine its unknown {names}") from None
             values = {
                 **values,
                 **{key: values[key] + step for key, step in zip(unknowns, change.tolist(), strict=True)},
@@ -167,6 +172,15 @@ class World:
                 break
         here = at.having(values)
         return at.having({**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
+
+    def _slopes(self, at: Instant, keys: list[str]) -> Any:
+        return np.array([np.imag(self._residual(at.shifted({key: 1.0}, STEP * 1j))) / STEP for key in keys]).T
+
+    def _kept(self, at: Instant) -> list[str]:
+        """Potentials that a law may keep by an unknown: of ports into which an unknown flows."""
+        flows = self.flows(at.shifted({f"own:{name}": 1.0 for name in self._told_here()}, STEP * 1j))
+        ports = [name for name, port in self.kind.declaration.ports.items() if not port.domain.mechanical]
+        return [f"port:{name}:x" for name in ports if np.imag(flows.get(f"port:{name}", 0.0))]
 
     def _told_here(self) -> list[str]:
         """Unknowns that the law determines; what a tie bears depends on what it is tied between, as drawn."""
@@ -180,7 +194,8 @@ class World:
             path.append(self.zone(here))
             fired = self.risen(here)
             if not fired:
-                return self.solve(self._at_rest(here))
+                rest = self._at_rest(here)
+                return here if rest is here else self.solve(rest)
             self.seen |= {(path[-1], guard["name"]) for guard in fired}
             here = self.follow(here, fired[0])
             self.led.add((path[-1], self.zone(here)))
