@@ -150,14 +150,15 @@ class World:
         """The instant with the own unknowns and the accelerations that belong to its zone. Newton, analytic slopes."""
         unknowns = [f"own:{name}" for name in self._told_here()]
         told, values = len(unknowns), dict(at.values)
+        held = self.held(at) if unknowns else {}  # no unknown moves a ratio
         for _ in range(30 if unknowns else 0):
             here = at.having(values)
-            residual = np.array(self._residual(here))
+            residual = np.array(self._residual(here, held))
             try:
-                change = np.linalg.solve(self._slopes(here, unknowns), -residual.real)
+                change = np.linalg.solve(self._slopes(here, unknowns, held), -residual.real)
             except np.linalg.LinAlgError:  # singular, or wider by potentials that unknowns keep
                 unknowns += [] if len(unknowns) > told else self._kept(here)
-                slopes = self._slopes(here, unknowns)
+                slopes = self._slopes(here, unknowns, held)
                 sizes = np.abs(slopes).max(axis=1, keepdims=True)
                 sizes[sizes == 0] = 1.0
                 change, _, rank, _ = np.linalg.lstsq(slopes / sizes, -residual.real / sizes[:, 0], rcond=None)
@@ -173,8 +174,8 @@ class World:
         here = at.having(values)
         return at.having({**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
 
-    def _slopes(self, at: Instant, keys: list[str]) -> Any:
-        return np.array([np.imag(self._residual(at.shifted({key: 1.0}, STEP * 1j))) / STEP for key in keys]).T
+    def _slopes(self, at: Instant, keys: list[str], held: Mapping[str, Mapping[str, float]]) -> Any:
+        return np.array([np.imag(self._residual(at.shifted({key: 1.0}, STEP * 1j), held)) / STEP for key in keys]).T
 
     def _kept(self, at: Instant) -> list[str]:
         """Potentials that a law may keep by an unknown: of ports into which an unknown flows."""
@@ -232,8 +233,8 @@ class World:
         speeds = {f"port:{port}:v": change for port, change in zip(self.bodies, changes, strict=True)}
         return at.having(values | {speed: values[speed] + change for speed, change in speeds.items()})
 
-    def _residual(self, at: Instant) -> list[Any]:
-        flows, held = self.flows(at), self.held(at)
+    def _residual(self, at: Instant, held: Mapping[str, Mapping[str, float]]) -> list[Any]:
+        flows = self.flows(at)
         accelerations = self._accelerations(at, flows)
         moving = self.flows(at.having({**at.values, **accelerations})) if self.structure.positions else {}
         found = []
