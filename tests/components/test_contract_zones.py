@@ -8,6 +8,7 @@ import pytest
 
 from fairlead.component import (
     Component,
+    Discrete,
     Input,
     Law,
     Output,
@@ -18,6 +19,7 @@ from fairlead.component import (
     Zones,
     guard,
     hold,
+    sampled,
     sqrt,
     zone,
 )  # fmt: skip
@@ -223,7 +225,56 @@ class BegunInside(Stop):
         return b.v - a.v
 
 
-@pytest.mark.parametrize("kind", [Stop, Fuse, Trap, BegunInside])
+class Sampling(Component):
+    """It pushes while the last sample is above a level."""
+
+    a = Translational()
+    period, level = Parameter("s", above=0), Parameter("m", above=0)
+    push, seen = Parameter("N"), Discrete("m")
+    zones = Zones("off", "on")
+
+    @zone("off")
+    def off(p):
+        return 0
+
+    @zone("on")
+    def on(p, a):
+        return Law(a=p.push, supplied=-p.push * a.v)
+
+    @sampled(every="period")
+    def sample(p, a):
+        return Law(seen=a.x)
+
+    @guard("off", to="on", unit="m")
+    def rises(p, seen):
+        return seen - p.level
+
+    @guard("on", to="off", unit="m")
+    def falls(p, seen):
+        return p.level / 2 - seen
+
+
+class Timed(Component):
+    """It pushes from an hour on."""
+
+    a = Translational()
+    push, instant = Parameter("N"), Parameter("s", default=3600.0, above=0)
+    zones = Zones("off", "on")
+
+    @zone("off")
+    def off(p):
+        return 0
+
+    @zone("on")
+    def on(p, a):
+        return Law(a=p.push, supplied=-p.push * a.v)
+
+    @guard("off", to="on", unit="s")
+    def begins(p, t):
+        return t - p.instant
+
+
+@pytest.mark.parametrize("kind", [Stop, Fuse, Trap, BegunInside, Sampling, Timed])
 def test_zones_that_are_met_rarely_are_no_mistake(kind):
     ask(kind, "zones_reached", "settles")
 

@@ -49,8 +49,9 @@ def all_reached(
     has, led = world.kind.declaration, set(led)
     here = {guard["name"] for guards in world.structure.guards.values() for guard in guards}
     led |= {(zone, one.to) for name, one in has.guards.items() if name not in here for zone in one.zones}  # off here
-    if _is_optional(world.kind):
-        led |= set(_constant(world))
+    led |= {(zone, guard.to) for zone, guard in _guards(world) if _is_sampled(guard)}
+    if _is_optional(world.kind):  # a guard may be a constant on purpose
+        led |= {(zone, guard.to) for zone, guard in _guards(world) if _is_fixed(guard)}
     searched: set[tuple[str, str]] = set()
     while True:
         found = reached(begin, led)
@@ -72,18 +73,26 @@ def _to(world: World, guard: dict[str, Any]) -> str:
 
 
 def _is_optional(kind: type[Declared]) -> bool:
-    """Whether it has forms in which a guard may be a constant on purpose."""
+    """Whether it has other forms, by what may be left out or chosen."""
     given = kind.declaration.parameters.values()
     left_out = any(isinstance(one, Choice) or (isinstance(one, Parameter) and one.default is None) for one in given)
     return left_out or bool(kind.declaration.effects)
 
 
-def _constant(world: World) -> Iterator[tuple[str, str]]:
-    """Steps whose guard no motion, signal or state changes."""
+def _guards(world: World) -> Iterator[tuple[str, TracedGuard]]:
+    """The zone of every guard that leads to another zone, and the guard."""
     for zone, traced in traced_zones(world.rig.variant).items():
-        for guard in traced.guards:
-            if guard.to and _is_fixed(guard):
-                yield zone, guard.to
+        yield from ((zone, guard) for guard in traced.guards if guard.to)
+
+
+def left_by_samples(world: World) -> set[str]:
+    """Zones out of which a sample leads, so that what is drawn may never stay there."""
+    return {zone for zone, guard in _guards(world) if _is_sampled(guard)}
+
+
+def _is_sampled(guard: TracedGuard) -> bool:
+    """Whether it reads what changes at sample times only, which is not drawn."""
+    return any(key(s.name).is_discrete for value in guard.values for s in value.free_symbols)
 
 
 def _is_fixed(guard: TracedGuard) -> bool:
@@ -95,12 +104,8 @@ def idle_guards(
 ) -> list[tuple[str, str]]:
     """(zone, guard) of guards that read what moves and are at no instant of any size above zero."""
     world = make()
-    left = {
-        (zone, guard.name)
-        for zone, traced in traced_zones(world.rig.variant).items()
-        for guard in traced.guards
-        if guard.to and not _is_fixed(guard)
-    } - seen
+    asked = [one for one in _guards(world) if not _is_fixed(one[1]) and not _is_sampled(one[1])]
+    left = {(zone, guard.name) for zone, guard in asked} - seen
     return sorted(left - _found(make, rng, left, lambda step: _of_guard(*step))) if left else []
 
 
