@@ -23,7 +23,16 @@ from fairlead.kernels import layout
 from fairlead.testing.borders import at_borders, follow, is_at_border, must_let_go, under_loads
 from fairlead.testing.oddness import must_be_odd
 from fairlead.testing.power import at_tied_motion, heat_falls, massive, power_in, power_met, power_of, rates_of
-from fairlead.testing.reach import all_reached, begins, idle_guards, left_by_samples, not_met, other_parameters, reached, unled
+from fairlead.testing.reach import (
+    all_reached,
+    begins,
+    idle_guards,
+    left_by_samples,
+    not_met,
+    other_parameters,
+    reached,
+    unled,
+)
 from fairlead.testing.rig import Rig, traced_zones
 from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
