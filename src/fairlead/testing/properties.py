@@ -38,7 +38,7 @@ from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
 INSTANCES, INSTANTS = 4, 12  # per variant; each instant is taken through all zones
-BORDERS = 1  # instants of an instance in each zone from which speeds are brought to the borders of the zone
+BORDERS = 2  # instances of which in each zone, from one instant, speeds are brought to the borders of the zone
 ROUNDING = 1e-9  # relative to the largest number met; laws lose a few digits by cancellation, no more
 KEPT = (
     ("d_signals", layout.PARTIALS_SIGNALS, layout.SIGNALS),
@@ -219,15 +219,15 @@ def settles(make: Maker, rng: np.random.Generator) -> None:
     So they do at an instant at which a speed reaches the border of its zone, as when a slip comes to rest; not of a
     class that says it cannot hold (`can_hold`).
     """
-    seen: dict[tuple[int, str], int] = {}
+    seen: dict[str, set[int]] = {}
     for world, end in _settled(make, tell=True):
         if not world.zoned or not world.kind.answers.can_hold:
             continue
         if is_at_border(world, end):
             follow(world, end)
-        which = id(world), world.zone(end)
-        seen[which] = seen.get(which, 0) + 1
-        if seen[which] <= BORDERS:
+        met = seen.setdefault(world.zone(end), set())
+        if id(world) not in met and len(met) < BORDERS:
+            met.add(id(world))
             for border in under_loads(world, end):
                 follow(world, border)
 
