@@ -10,6 +10,6 @@ def test_my_spring(check):                             # one test a property
 """
 
 from fairlead.testing.contract import Check, checks, contract
-from fairlead.testing.world import ContractError
+from fairlead.testing.world import ContractError, ContractRemark
 
-__all__ = ["Check", "ContractError", "checks", "contract"]
+__all__ = ["Check", "ContractError", "ContractRemark", "checks", "contract"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import warnings
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -16,13 +17,15 @@ from fairlead.component.composition import expanded
 from fairlead.component.given import Part
 from fairlead.component.members import _libraries, show
 from fairlead.component.registry import known_types
+from fairlead.component.replies import BUNDLED
 from fairlead.component.scene import Scene, is_head
 from fairlead.component.trace import TraceError
 from fairlead.errors import ModelError, UsageError, shown
 from fairlead.testing.properties import PROPERTIES
+from fairlead.testing.rig import traced_zones
 from fairlead.testing.samples import PartAsked, SampleError, families, sample
 from fairlead.testing.settled import Maker, Settled
-from fairlead.testing.world import ContractError, World
+from fairlead.testing.world import ContractError, ContractRemark, World
 
 
 @dataclass(frozen=True)
@@ -82,7 +85,10 @@ def checks(kind: type[Declared], /, **given: Any) -> list[Check]:
 
 
 def contract(kind: type[Declared], /, **given: Any) -> None:
-    """Ask every property of a class. Raises ContractError with all that are broken, one sentence each."""
+    """Ask every property of a class. Raises ContractError with all that are broken, one sentence each.
+
+    Warns (ContractRemark) of an output that the law of a zone leaves out: it is 0 there.
+    """
     if not isinstance(kind, type):
         what = f"contract: kind = {shown(kind)} is no class"
         raise UsageError(f"{what}. Import the class, and give it itself: contract(Spring).")
@@ -98,6 +104,25 @@ def contract(kind: type[Declared], /, **given: Any) -> None:
                 broken.append(f"{check.name}: {error}")
     if broken:
         raise ContractError("\n".join(broken))
+    forms = {check.kind: check.chosen for check in reversed(asked)}
+    for member, chosen in forms.items():
+        for remark in _left_out(member, chosen):
+            warnings.warn(remark, ContractRemark, stacklevel=2)
+
+
+def _left_out(kind: type[Declared], chosen: dict[str, Any]) -> Iterator[str]:
+    """Outputs that the author's law of some zone does not give, and that of another does."""
+    world = _Form(kind, True, repr(chosen), chosen).world(np.random.default_rng(zlib.crc32(kind.__name__.encode())))
+    zones = traced_zones(world.rig.variant)
+    for name in kind.declaration.outputs:
+        lacks = [zone for zone, traced in zones.items() if name not in traced.outputs and not _of_library(kind, zone)]
+        if 0 < len(lacks) < len(zones):
+            what = f"the law of zone {', '.join(lacks)} does not give the output {name}, which is 0 there"
+            yield f"{kind.__name__}: {what}. If that is meant, write {name}=0"
+
+
+def _of_library(kind: type[Declared], zone: str) -> bool:
+    return kind.declaration.laws[zone].__module__.startswith(BUNDLED)
 
 
 def _is_part(kind: type[Declared]) -> bool:

@@ -8,26 +8,37 @@ one says so, with the reason, for all of it or for one zone or option:
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from fairlead.component.declare import THERMAL
 from fairlead.component.given import Table, Waveform
 from fairlead.component.holding import Hold, HoldPosition
-from fairlead.component.keys import OWN, PORT, key
+from fairlead.component.keys import PORT, key
 from fairlead.component.terms import terms_of
-from fairlead.component.values import Variant, parameter
+from fairlead.component.values import parameter
 from fairlead.kernels import layout
-from fairlead.testing.rig import Rig
+from fairlead.testing.borders import at_borders, follow, is_at_border, must_let_go, under_loads
+from fairlead.testing.oddness import must_be_odd
+from fairlead.testing.power import at_tied_motion, heat_falls, massive, power_in, power_met, power_of, rates_of
+from fairlead.testing.reach import (
+    all_reached,
+    begins,
+    idle_guards,
+    left_by_samples,
+    not_met,
+    other_parameters,
+    reached,
+    unled,
+)
+from fairlead.testing.rig import Rig, traced_zones
 from fairlead.testing.settled import Maker, in_pieces
 from fairlead.testing.world import STEP, CircleError, ContractError, Instant, World
 
 INSTANCES, INSTANTS = 4, 12  # per variant; each instant is taken through all zones
+BORDERS = 2  # instances of which in each zone, from one instant, speeds are brought to the borders of the zone
 ROUNDING = 1e-9  # relative to the largest number met; laws lose a few digits by cancellation, no more
 KEPT = (
     ("d_signals", layout.PARTIALS_SIGNALS, layout.SIGNALS),
@@ -91,21 +102,31 @@ def as_written(make: Maker, rng: np.random.Generator) -> None:
             dict(zip(world.structure.outputs, world.ask(layout.OUTPUT, at), strict=False)),
         )
         scale = max((abs(flow) for flow in flows.values()), default=0.0)  # what is zero is a difference of such
+        added = _of_relations(world, at)
         for name, value in said.items():
             have = flows.get(f"port:{name}", flows.get(f"own:{name}", outputs.get(name)))
-            if not isinstance(value, Hold | HoldPosition) and have is not None and not _close(
-                have.real, float(value), scale if name in has.unknowns else 0.0
-            ):
-                raise ContractError(
-                    f"{world.where(at)}: the kernel gives {name} = {have.real:.9g}, the law {float(value):.9g}"
-                )
+            if isinstance(value, Hold | HoldPosition) or have is None:
+                continue  # `hold` has no number; see `derivatives`
+            have, rough = have.real - added.get(name, 0.0), name in has.unknowns or name in added
+            if not _close(have, float(value), scale if rough else 0.0):
+                said_here = f"the kernel gives {name} = {have:.9g}, the law {float(value):.9g}"
+                raise ContractError(f"{world.where(at)}: {said_here}")
+
+
+def _of_relations(world: World, at: Instant) -> dict[str, float]:
+    """What relations of positions put on ports beside what the law gives: minus their force times the ratio there."""
+    added: dict[str, float] = {}
+    for unknown in world.structure.positions:
+        for port, ratio in world.held(at)[unknown].items():
+            added[port] = added.get(port, 0.0) - float(np.real(at.values[f"own:{unknown}"])) * ratio
+    return added
 
 
 def balance(make: Maker, rng: np.random.Generator) -> None:
     """What the two ports of a massless two-port take in sums to zero, unless it holds speeds at a ratio, as a gear."""
     for world, at in _settled(make):
         ports = world.kind.declaration.ports
-        if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or _massive(world) or world.prescribed:
+        if len(ports) != 2 or len({p.domain for p in ports.values()}) != 1 or massive(world) or world.prescribed:
             return
         if world.structure.positions:  # its ratio is no number, and its power is zero: see `energy`
             return
@@ -132,27 +153,39 @@ def _at_a_ratio(world: World, at: Instant) -> bool:
 
 
 def dissipates(make: Maker, rng: np.random.Generator) -> None:
-    """Dissipated power is never negative, in the zones that the guards allow."""
+    """Dissipated power is never negative, in the zones that the guards allow, and heat does not only flow uphill."""
+    uphill: dict[str, list[tuple[float, World, Instant]]] = {}
     for world, at in _settled(make):
+        uphill.setdefault(world.zone(at), []).extend((fall, world, at) for fall in heat_falls(world, at))
         if f"dissipates {world.zone(at)}" in world.kind.answers.exempt:
             continue
         power = world.ask(layout.OUTPUT, at)[-2].real
-        if power < -ROUNDING * max(1.0, _power_met(world, at)):
+        if power < -ROUNDING * max(1.0, power_met(world, at)):
             raise ContractError(
                 f"{world.where(at)}: dissipated is {power:.6g} W; a component cannot dissipate less than nothing"
             )
+    for met in uphill.values():  # one that pumps heat, at a rate of its own, meets instants of either kind
+        if len(met) >= INSTANTS and all(fall < 0 for fall, _, _ in met):
+            _, world, at = met[0]
+            raise ContractError(f"{world.where(at)}: heat flows from cold to hot, at this instant and all others")
 
 
 def energy(make: Maker, rng: np.random.Generator) -> None:
     """Power in = rate of stored energy + dissipated - supplied."""
     for world, at in _settled(make):
         if world.kind.answers.ties is not None:
-            return  # a rigid tie passes on what it takes in; it has no law to say so
-        taken = _power_in(world, at, rates := _rates(world, at, rng))
+            tied = at_tied_motion(world, at)
+            if tied is None:
+                continue
+            at = tied
+        rates = rates_of(world, at, rng)
+        if rates is None:  # what it stores follows a force that holds, whose rate is not known here
+            continue
+        taken = power_in(world, at, rates)
         stored = world.ask(layout.OUTPUT, at.shifted(rates, STEP * 1j))[-3]
         dissipated, supplied = (float(x) for x in world.ask(layout.OUTPUT, at)[-2:].real)
         rate = stored.imag / STEP
-        told, scale = rate + dissipated - supplied, max(_power_met(world, at), abs(taken), abs(rate))
+        told, scale = rate + dissipated - supplied, max(power_met(world, at), abs(taken), abs(rate))
         if not _close(taken, told, scale):
             raise ContractError(
                 f"{world.where(at)}: energy is not accounted for: it takes in {taken:.6g} W, stores {rate:.6g} W, "
@@ -162,66 +195,100 @@ def energy(make: Maker, rng: np.random.Generator) -> None:
 
 def _cause(world: World, at: Instant, rates: Mapping[str, float], told: float, scale: float) -> str:
     """What would close the ledger: other signs, or any line of it at all."""
-    taken = _power_in(world, at, dict(rates))
+    taken = power_in(world, at, dict(rates))
     if not any(_ledger_lines(world)):
         lines = "stored= [J], dissipated= or supplied= [W]"
         return f". No law has a line of the ledger: add {lines} to Law(...), or methods of these names"
     if _close(taken, -told, scale):
         return ". With the opposite sign it would close: a port takes in what acts on the component there, +pull at b"
     for name in world.kind.declaration.ports:
-        without = _power_of(world, at, rates, name)
+        without = power_of(world, at, rates, name)
         if without and _close(taken - 2 * without, told, scale):
             return f". With the opposite sign of what {name} takes in it would close"
     return ""
 
 
-@functools.lru_cache(maxsize=4)  # a property asks several instances of one variant
-def _traced(variant: Variant) -> Mapping[str, Any]:
-    """The traced zones of a variant."""
-    from fairlead.component.trace import trace
-
-    return trace(variant).zones
-
-
 def _ledger_lines(world: World) -> Iterator[bool]:
     """Whether the laws of a class give a line of the ledger, zone by zone."""
-    return (any(zone.ledger.values()) for zone in _traced(world.rig.variant).values())
+    return (any(zone.ledger.values()) for zone in traced_zones(world.rig.variant).values())
 
 
 def settles(make: Maker, rng: np.random.Generator) -> None:
-    """From every zone, at any instant, the guards lead to a zone in which none has risen."""
-    for _ in _settled(make, tell=True):
-        pass
+    """From every zone, at any instant, the guards lead to a zone in which none has risen.
+
+    So they do at an instant at which a speed reaches the border of its zone, as when a slip comes to rest; not of a
+    class that says it cannot hold (`can_hold`).
+    """
+    seen: dict[str, set[int]] = {}
+    for world, end in _settled(make, tell=True):
+        if not world.zoned or not world.kind.answers.can_hold:
+            continue
+        if is_at_border(world, end):
+            follow(world, end)
+        met = seen.setdefault(world.zone(end), set())
+        if id(world) not in met and len(met) < BORDERS:
+            met.add(id(world))
+            for border in under_loads(world, end):
+                follow(world, border)
 
 
 def zones_reached(make: Maker, rng: np.random.Generator) -> None:
-    """Some motion leads to every zone: none is dead, none is left out."""
+    """Guards lead to every zone from the one in which it begins, and some motion stays there."""
     world = make()
-    missing = set(world.structure.zones)
+    if not world.zoned:
+        return
+    must_let_go(world)
+    named = {name.partition(" ")[2] for name in world.kind.answers.exempt if name.startswith("zones_reached ")}
+    wanted, begin, met = set(world.structure.zones) - named, {begins(world), *named}, named | left_by_samples(world)
+    led, seen = set[tuple[str, str]](), set[tuple[str, str]]()
+
+    def all_met() -> bool:
+        return met >= wanted and reached(begin, led) >= wanted
+
+    def look(world: World, ends: Iterable[Instant]) -> None:
+        met.update(world.zone(end) for end in ends)
+        led.update(world.led)
+        seen.update(world.seen)
+        begin.add(begins(world))
+
     for there, end in _settled(make):
-        missing.discard(there.zone(end))
-        if not missing:
-            return
+        look(there, [end])
     for _ in range(40):
+        if met >= wanted:
+            break
         world = make()
         for at in (world.draw(rng) for _ in range(INSTANTS)):
             for zone in world.structure.zones:
-                missing -= {world.zone(end) for end in _end(world, at, zone)}
-            if not missing:
-                return
-    names = ", ".join(sorted(missing))
-    raise ContractError(
-        f"{world.rig.variant.label}: no motion was found that leads to zone {names} and stays there. The search of "
-        f"{(INSTANCES + 40) * INSTANTS} random instants has ended, which does not say that there is none: give "
-        f"parameters at which the zone is met, contract({world.kind.__name__}, name=...) or asked_with, or say "
-        "why in exempt"
-    )
+                look(world, _ends_beside(world, at, zone))
+            if met >= wanted:
+                break
+    if unmet := wanted - met:
+        raise ContractError(f"{world.rig.variant.label}: {not_met(world, unmet, (INSTANCES + 40) * INSTANTS)}")
+    if not all_met() and (left := wanted - all_reached(make, rng, begin, led)):
+        raise ContractError(f"{world.rig.variant.label}: {unled(world, left, begin)}")
+    if idle := idle_guards(make, rng, seen):
+        zone, name = idle[0]
+        raise ContractError(
+            f"{world.rig.variant.label}: guard {name} can never fire in zone {zone}: it is above zero at no instant of "
+            f"a wide search. {other_parameters(world)}"
+        )
+
+
+def _ends_beside(world: World, at: Instant, zone: str) -> Iterator[Instant]:
+    """Where the guards lead from a zone, and from the borders of speeds there."""
+    for end in _end(world, at, zone):
+        yield end
+        for border in at_borders(world, end):
+            try:
+                yield follow(world, border)
+            except CircleError:
+                continue
 
 
 def outputs_given(make: Maker, rng: np.random.Generator) -> None:
     """Every declared output is given in some zone."""
     world = make()
-    zones = _traced(world.rig.variant).values()
+    zones = traced_zones(world.rig.variant).values()
     for name in world.kind.declaration.outputs:
         if not any(name in zone.outputs for zone in zones):
             raise ContractError(f"{world.rig.variant.label}: output {name} is declared and given by no law")
@@ -232,7 +299,7 @@ def units(make: Maker, rng: np.random.Generator) -> None:
     from fairlead.component.dimensions import misfits
 
     world = make()
-    for wrong in misfits(world.rig.variant, _traced(world.rig.variant)):
+    for wrong in misfits(world.rig.variant, traced_zones(world.rig.variant)):
         raise ContractError(f"{world.rig.variant.label} in zone {wrong.zone}: {wrong.what}")
 
 
@@ -258,27 +325,7 @@ def instances(make: Maker, rng: np.random.Generator) -> None:
 
 def odd(make: Maker, rng: np.random.Generator) -> None:
     """A component with a slip takes in the opposite when everything moves and pushes the other way."""
-    for world, at in _anywhere(make, rng, alone=True):
-        if "slip" not in world.structure.outputs:
-            return
-        start, zones = world.zone(at), world.kind.declaration.zones
-        ends = [*_end(world, at, start), *_end(world, _mirrored(at), zones.mirrored(start))]
-        if len(ends) < 2:
-            continue
-        one, other = ends
-        # With no motion at all either direction may claim the instant, as on landing; the forces must agree even so.
-        moves = any(value != 0 for one, value in at.values.items() if key(one).is_speed)
-        if moves and zones.mirrored(world.zone(one)) != world.zone(other):
-            raise ContractError(
-                f"{world.where(one)}: with every motion and force reversed it is in zone {world.zone(other)}"
-            )
-        for port in world.kind.declaration.ports:
-            there, back = (world.flows(x).get(f"port:{port}", 0.0) for x in (one, other))
-            if not _close(there.real, -back.real):
-                raise ContractError(
-                    f"{world.where(one)}: {port} takes in {there.real:.6g}, and {back.real:.6g} with every motion "
-                    "reversed; friction is odd in slip"
-                )
+    must_be_odd(lambda: _anywhere(make, rng, alone=True), make().kind)
 
 
 _ALL = (
@@ -343,54 +390,3 @@ def _argument(world: World, at: Instant, name: str) -> Any:
         function = has.shared[name].function
         return function(**{each: _argument(world, at, each) for each in _names(function)})
     return known.get(name, values.get(f"in:{name}", values.get(f"own:{name}")))
-
-
-def _inertia(world: World) -> Mapping[str, float]:
-    method = world.kind.answers.inertia
-    return method(world.of) if method else {}
-
-
-def _massive(world: World) -> bool:
-    return bool(_inertia(world)) or world.kind.answers.ties is not None
-
-
-def _rates(world: World, at: Instant, rng: np.random.Generator) -> dict[str, float]:
-    """Time derivatives of all inputs: positions move, bodies accelerate, states go as the law says."""
-    flows, rates = world.flows(at), {"t": 1.0}
-    for name, port in world.kind.declaration.ports.items():
-        if port.domain.mechanical:
-            rates[f"port:{name}:x"] = at.values[f"port:{name}:v"]
-            rates[f"port:{name}:v"] = at.values[f"port:{name}:a"].real
-        else:
-            rates[f"port:{name}:x"] = float(rng.normal())
-    return rates | {f"own:{name}": flows[f"own:{name}"].real for name in world.kind.declaration.states}
-
-
-def _power_in(world: World, at: Instant, rates: dict[str, float]) -> float:
-    """Flow times rate over all ports, with the inertia of the component and the reaction of a prescribed motion."""
-    return sum(_power_of(world, at, rates, name) for name in world.kind.declaration.ports)
-
-
-def _power_of(world: World, at: Instant, rates: Mapping[str, float], name: str) -> float:
-    """The same of one port; heat is a power by itself, told where it is made."""
-    if world.kind.declaration.ports[name].domain is THERMAL:
-        return 0.0
-    flows, port = world.flows(at), world.kind.declaration.ports[name]
-    across = "v" if port.domain.mechanical else "x"
-    flow = flows[f"port:{name}"].real if f"port:{name}" in flows else 0.0
-    flow += _inertia(world).get(name, 0.0) * rates[f"port:{name}:{across}"]
-    if name in world.prescribed:
-        flow -= at.values[f"port:{name}:R"]
-    return float(flow * at.values[f"port:{name}:{across}"])
-
-
-def _power_met(world: World, at: Instant) -> float:
-    """The largest product of a flow and a speed, the scale of rounding."""
-    flows = world.flows(at)
-    speeds = [abs(v) for one, v in at.values.items() if key(one).part in ("v", "x")]
-    return max((abs(f) for f in flows.values()), default=0.0) * max(speeds, default=0.0)
-
-
-def _mirrored(at: Instant) -> Instant:
-    turned = {one: -value if key(one).kind in (PORT, OWN) else value for one, value in at.values.items()}
-    return replace(at, values=turned, loads={name: -load for name, load in at.loads.items()})

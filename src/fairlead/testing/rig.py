@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from fairlead.component.values import Values, parameter, polynomial, variant_of
+from fairlead.component.trace import TracedZone
+from fairlead.component.values import Values, Variant, parameter, polynomial, variant_of
 from fairlead.kernels import layout
 from fairlead.kernels.kernel import kernel, plain
 from fairlead.kernels.structure import Structure
@@ -25,6 +26,14 @@ FIXED = {
     layout.PARTIALS_LEDGER: layout.FIXED_LEDGER,
 }
 POINTER, WHOLE = ctypes.c_void_p, ctypes.c_int64
+
+
+@functools.lru_cache(maxsize=16)  # several properties ask several instances of one variant
+def traced_zones(variant: Variant) -> Mapping[str, TracedZone]:
+    """The traced zones of a variant."""
+    from fairlead.component.trace import trace
+
+    return trace(variant).zones
 
 
 class Rig:

@@ -8,7 +8,7 @@ force that keeps its slip at zero. Positions and speeds are given; nothing moves
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,6 +31,10 @@ STEP = 1e-30  # of a complex step; its square vanishes beside 1
 
 class ContractError(AssertionError):
     """A property that a component breaks, in a sentence."""
+
+
+class ContractRemark(UserWarning):
+    """What is allowed and may not be meant."""
 
 
 class CircleError(ContractError):
@@ -65,6 +69,8 @@ class World:
     of: Values
     masses: dict[str, float]
     rig: Rig = field(init=False)
+    led: set[tuple[str, str]] = field(init=False, default_factory=set)  # from which zone guards led to which
+    seen: set[tuple[str, str]] = field(init=False, default_factory=set)  # (zone, guard) of those that had risen
 
     def __post_init__(self) -> None:
         """Set the instance up on a rig of its own."""
@@ -143,16 +149,22 @@ class World:
     def solve(self, at: Instant) -> Instant:
         """The instant with the own unknowns and the accelerations that belong to its zone. Newton, analytic slopes."""
         unknowns = [f"own:{name}" for name in self._told_here()]
-        values = dict(at.values)
+        told, values = len(unknowns), dict(at.values)
+        held = self.held(at) if unknowns else {}  # no unknown moves a ratio
         for _ in range(30 if unknowns else 0):
             here = at.having(values)
-            residual = np.array(self._residual(here))
-            slopes = [np.imag(self._residual(here.shifted({key: 1.0}, STEP * 1j))) / STEP for key in unknowns]
+            residual = np.array(self._residual(here, held))
             try:
-                change = np.linalg.solve(np.array(slopes).T, -residual.real)
-            except np.linalg.LinAlgError:
-                names = ", ".join(key[4:] for key in unknowns)
-                raise ContractError(f"{self.where(here)}: the law does not determine its unknown {names}") from None
+                change = np.linalg.solve(self._slopes(here, unknowns, held), -residual.real)
+            except np.linalg.LinAlgError:  # singular, or wider by potentials that unknowns keep
+                unknowns += [] if len(unknowns) > told else self._kept(here)
+                slopes = self._slopes(here, unknowns, held)
+                sizes = np.abs(slopes).max(axis=1, keepdims=True)
+                sizes[sizes == 0] = 1.0
+                change, _, rank, _ = np.linalg.lstsq(slopes / sizes, -residual.real / sizes[:, 0], rcond=None)
+                if rank < told:
+                    names = ", ".join(self._told_here())
+                    raise ContractError(f"{self.where(here)}: the law does not determine its unknown {names}") from None
             values = {
                 **values,
                 **{key: values[key] + step for key, step in zip(unknowns, change.tolist(), strict=True)},
@@ -161,6 +173,15 @@ class World:
                 break
         here = at.having(values)
         return at.having({**values, **{k: np.real(a) for k, a in self._accelerations(here).items()}})
+
+    def _slopes(self, at: Instant, keys: list[str], held: Mapping[str, Mapping[str, float]]) -> Any:
+        return np.array([np.imag(self._residual(at.shifted({key: 1.0}, STEP * 1j), held)) / STEP for key in keys]).T
+
+    def _kept(self, at: Instant) -> list[str]:
+        """Potentials that a law may keep by an unknown: of ports into which an unknown flows."""
+        flows = self.flows(at.shifted({f"own:{name}": 1.0 for name in self._told_here()}, STEP * 1j))
+        ports = [name for name, port in self.kind.declaration.ports.items() if not port.domain.mechanical]
+        return [f"port:{name}:x" for name in ports if np.imag(flows.get(f"port:{name}", 0.0))]
 
     def _told_here(self) -> list[str]:
         """Unknowns that the law determines; what a tie bears depends on what it is tied between, as drawn."""
@@ -174,10 +195,12 @@ class World:
             path.append(self.zone(here))
             fired = self.risen(here)
             if not fired:
-                return self.solve(self._at_rest(here))
-            here = self._follow(here, fired[0])
-        circle = " -> ".join(dict.fromkeys(path[-6:])) + f" -> {path[-1]}"
-        raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle}")
+                rest = self._at_rest(here)
+                return here if rest is here else self.solve(rest)
+            self.seen |= {(path[-1], guard["name"]) for guard in fired}
+            here = self.follow(here, fired[0])
+            self.led.add((path[-1], self.zone(here)))
+        raise CircleError(f"{self.where(at)}: its zones do not settle, they run in a circle: {circle_of(path)}")
 
     def risen(self, at: Instant) -> list[dict[str, Any]]:
         """Guards of the zone in force that are above zero."""
@@ -191,7 +214,8 @@ class World:
         zone = f" in zone {self.zone(at)}" if self.zoned else ""
         return f"{self.rig.variant.label}{zone} ({inputs})"
 
-    def _follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
+    def follow(self, at: Instant, guard: dict[str, Any]) -> Instant:
+        """The instant with the zone or the piece that a guard leads to, at rest where that holds."""
         zones = list(at.zones)
         zones[guard["machine"]] = guard["to"] if guard["to"] >= 0 else zones[guard["machine"]] + guard["step"]
         return self._at_rest(at.but(zones))
@@ -201,16 +225,16 @@ class World:
         held = self.held(at)
         if not held:
             return at
-        values, slips = dict(at.values), dict(zip(self.structure.targets, self.ask(layout.SLIP, at), strict=True))
-        for unknown, rates in held.items():
-            give = sum(c**2 / self.masses[port] for port, c in rates.items() if port in self.bodies)
-            for port, c in rates.items():
-                if port in self.bodies:
-                    values[f"port:{port}:v"] += np.real(slips[f"own:{unknown}"]) * c / self.masses[port] / give
-        return at.having(values)
+        values, slips = at.values, dict(zip(self.structure.targets, self.ask(layout.SLIP, at), strict=True))
+        rows = np.array([[np.real(rates.get(port, 0.0)) for port in self.bodies] for rates in held.values()])
+        given = rows / np.array([self.masses[port] for port in self.bodies])  # speed of each body for a unit of impulse
+        taken = np.array([np.real(slips[f"own:{unknown}"]) for unknown in held])
+        changes = given.T @ np.linalg.lstsq(given @ rows.T, taken, rcond=None)[0]
+        speeds = {f"port:{port}:v": change for port, change in zip(self.bodies, changes, strict=True)}
+        return at.having(values | {speed: values[speed] + change for speed, change in speeds.items()})
 
-    def _residual(self, at: Instant) -> list[Any]:
-        flows, held = self.flows(at), self.held(at)
+    def _residual(self, at: Instant, held: Mapping[str, Mapping[str, float]]) -> list[Any]:
+        flows = self.flows(at)
         accelerations = self._accelerations(at, flows)
         moving = self.flows(at.having({**at.values, **accelerations})) if self.structure.positions else {}
         found = []
@@ -233,6 +257,17 @@ class World:
         }
         free = {p: (at.loads[p] - flows.get(f"port:{p}", 0.0)) / self.masses[p] for p in self.bodies}
         return given | {f"port:{p}:{k}": a for p, a in free.items() for k in "aU"}
+
+
+def circle_of(path: Sequence[str]) -> str:
+    """The zones that come again and again at the end of a path, once round: "off -> on -> off"."""
+    passed = [zone for zone, before in zip(path, ["", *path], strict=False) if zone != before]  # pieces change as well
+    for length in range(1, len(passed) // 2 + 1):
+        if passed[-length:] == passed[-2 * length : -length]:
+            once = passed[-length:]
+            first = min(range(length), key=lambda k: passed.index(once[k]))  # where it was entered
+            return " -> ".join([*once[first:], *once[:first], once[first]])
+    return " -> ".join([*passed[-6:]])
 
 
 def _around(rng: np.random.Generator, most: float) -> float:
