@@ -124,7 +124,7 @@ def test_no_step_makes_anything_grow_that_does_not(locates):
 
 
 def test_a_load_that_changes_slowly_and_acts_through_something_stiff():
-    """y' = a (y - sin t), without what decays: of order four in a step, and half as much where steps end at switches."""
+    """y' = a (y - sin t), without what decays: of order four, and half of it where steps end at switches."""
     rate = -8.0
 
     def exact(t):

@@ -31,8 +31,8 @@ def mark_stiff(problem, matrices, recorder, h):
     Of what has inertia the speeds that follow a stiff law within the step: what they hold of the energy is nothing. A
     pressure that is shown elsewhere has another energy. Without inertia all that a balance gives: the error that it is
     allowed may be large in what flows. Of 1e-4 of 325 V on 1 mohm are left 30 A. A sum drives nothing, so that it is as
-    exact as it is allowed to be, but for `stepping`, which knows it as a mean over the step. Speeds are less exact there,
-    too: the equations of bodies beside are in the balance.
+    exact as it is allowed to be, but for `stepping`, which knows it as a mean over the step. Speeds are less exact
+    there, too: the equations of bodies beside are in the balance.
     """
     means = recorder.most_inside == PARABOLA
     stiff, position, found = indices(recorder.at_is_stiff, problem.n), indices(problem.at_position_of, problem.n), 0

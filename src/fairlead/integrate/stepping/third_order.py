@@ -23,8 +23,8 @@ factor is then zero where z is large (jump_inside.py).
 
 The solve for e is a filter, (1 - h J/(2 M))^-1: e has a share of h J/2 too much. What is driven by a load that changes
 slowly, through something stiff for which the step is still short, has a small y''' and a large J y'', and a step misses
-h J/2 of h J y''/12 that no difference of its ends sees. Where steps end at every switch a third solve takes half of what
-the filter has added away (`sharpen`):
+h J/2 of h J y''/12 that no difference of its ends sees. Where steps end at every switch a third solve takes half of
+what the filter has added away (`sharpen`):
 
     W (g/2) = J e/2 + 4 c            e <- e - g/2
 
