@@ -12,17 +12,18 @@ from collections.abc import Iterable, Iterator
 from tests.hard.attempt import Attempt
 from tests.hard.registry import Row
 
-LIGHT = "stepping: up to 1.5e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
+LIGHT = "stepping: 1.2e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 CREEPS = "a row inside a step shows a contact that creeps at its limit 1.03e-5 above it at 1e-5; 1e-5 is allowed"
 AT_LIMIT = "a contact that lets go twice within a dwell is shown with 1.3e-5 more than its limit; 1e-5 is allowed"
+TOUCHED = "stepping: a creep whose load comes to its limit and no further is shown 7e-4 above it in steps of 10 us"
 ASIDE = "ida: a body that is put back to what moves as given is not in its history; it ends and names rodas"
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
-PASSED = "stepping: a core is shown 3e-4 of its largest tension below zero in the row before it goes slack, at 1e-4"
+PASSED = "stepping: a core is shown 3e-5 of its largest tension below zero in the row before it goes slack, at 1e-4"
 ELSEWHERE = "played by `make hard`: the tests play these laws on `rodas`, and this engine with hold"
 
 KNOWN: tuple[tuple[str, str, str, str], ...] = (
@@ -30,7 +31,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
     ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
-    ("random networks, 20", "stepping", "*", LIGHT),
+    ("random networks, 20", "stepping", "binding", TOUCHED),
     ("random networks, 200", "stepping", "*", LIGHT),
     ("random networks, 200", "rodas", "hold", AT_LIMIT),
     ("random networks, 200", "rodas", "binding", CREEPS),
