@@ -61,6 +61,29 @@ def test_switches_that_do_not_advance_count_once(all_cuts, reaction):
     assert all_the_same(all_cuts(chattering_machine, settings))
 
 
+@pytest.mark.parametrize("pads", [0, 60])
+def test_what_circles_and_is_held_is_logged_alike(scene, monkeypatch, pads):
+    """Two relays without hysteresis at their levels, alone and beside enough contacts to have the log emptied first."""
+    parts, joins = [], []
+    for k in range(2):
+        parts += [f"level{k}: {{type: Integrator, initial: {-0.2 - 0.1 * k}}}",
+                  f"relay{k}: {{type: Relay, upper: 0, on: -0.7, off: 0.5}}"]  # fmt: skip
+        joins += [f"level{k}.signal, relay{k}.value", f"relay{k}.signal, level{k}.value"]
+    for k in range(pads):
+        parts += [f"m{k}: {{type: Mass, mass: 1 kg}}", f"g{k}: {{type: Ground}}",
+                  f"c{k}: {{type: Contact, normal_force: 1 N, curve: 0.3}}"]  # fmt: skip
+        joins += [f"m{k}.flange, c{k}.a", f"g{k}.flange, c{k}.b"]
+    lines = [*(f"  {one}" for one in parts), "connections:", *(f"  - [{one}]" for one in joins), "run: {stop: 1.5 s}"]
+    text, found = "\n".join(["components:", *lines]), []
+    monkeypatch.setattr(prepare, "EVENTS", 256)
+    for attempts in (1, 7, 64, 10**8):
+        monkeypatch.setattr(underway, "FIRST_ATTEMPTS", attempts)
+        monkeypatch.setattr(underway, "next_attempts", lambda *_, attempts=attempts: attempts)
+        settings = Run(stop=1.5, dwell=1e-3, on_chatter="hold", every=1.0)
+        found.append(told(integrate(scene(text).system, settings)))
+    assert all_the_same(found)
+
+
 @pytest.mark.parametrize(("make", "engine"), [(falling_ball, "rodas"), *((belt_block, each) for each in ENGINES)])
 def test_textbook_problems_take_the_same_path(all_cuts, make, engine):
     assert all_the_same(all_cuts(make, Run(stop=1.0, every=0.05, engine=engine)))

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from fairlead.integrate.codes import DONE, NO_ROOM, RELEASED, SETTLING_FOR_IT, SINGULAR, TOO_MANY_PASSES
 from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
-from fairlead.integrate.events.chatter import watch_chatter, watch_progress
+from fairlead.integrate.events.chatter import HOLD, watch_chatter, watch_progress
 from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.no_answer import find_answer
@@ -52,7 +52,7 @@ def settle(m, iterations):
         if guards.n_fired > 0:
             if settling.passes >= run.max_passes:
                 return TOO_MANY_PASSES
-            if not there_is_room(problem, m.recorder):
+            if not there_is_room(problem, m.recorder) or wants_empty_log(m):
                 return NO_ROOM
             if problem.falling == 1 and settling.passes == 0:
                 add_ties(problem, run, point, events)
@@ -80,6 +80,17 @@ def settle(m, iterations):
             if not jump_to_balance(m):
                 return DONE
     return DONE
+
+
+@compiled
+def wants_empty_log(m):
+    """True if the log is to be emptied before the first change, so that what circles can be taken out of it.
+
+    Else it would depend on how full the log was, and so on slices, how much of that is still there (`keep_last_event`).
+    """
+    recorder, all_changes = m.recorder, m.run.max_passes * m.problem.n_machines
+    begins = m.run.on_chatter == HOLD and m.events.settling.passes == 0
+    return begins and recorder.events > 0 and recorder.events + all_changes > recorder.event_capacity
 
 
 @compiled
