@@ -69,9 +69,12 @@ def chosen() -> Processor:
     return Processor(build, llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten())
 
 
-def tell_numba() -> None:
-    """Have numba compile for `processor()`. It comes before the first function is compiled in a process."""
+def tell_numba(cpu: str = "") -> None:
+    """Have numba compile for `processor()`, or in the vectors of the processor that is named.
+
+    It comes before the first function is compiled in a process.
+    """
     from numba.core import config
 
-    if processor().build == "generic":
-        config.CPU_NAME, config.CPU_FEATURES = "generic", ""
+    if cpu or processor().build == "generic":
+        config.CPU_NAME, config.CPU_FEATURES = cpu or "generic", ""

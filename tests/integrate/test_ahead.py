@@ -11,8 +11,9 @@ import pytest
 from fairlead import native, sealed
 from fairlead.errors import UsageError
 from fairlead.integrate import ahead, machine_code
-from fairlead.integrate.bitcode import SEPARATOR, _told, keep, kept_with_native, make_here
+from fairlead.integrate.bitcode import SEPARATOR, _told, keep, kept_with_native, loop_bitcode, make_here
 from fairlead.integrate.engine import Engine
+from fairlead.integrate.engines import ENGINES
 from fairlead.kernels.lowering import lower
 
 SQUARES = "def f(n, whole, x, out):\n    for i in range(0, n):\n        out[i] = out[i] + x[i] * x[i]\n"
@@ -132,12 +133,18 @@ def test_a_loop_that_asks_for_its_indices_is_not_made_of_what_was_kept_for_expor
 
 def test_what_is_made_together_is_a_file_each(tmp_path):
     made = native.Build({}, {"f": lower(SQUARES, "f", ("int", "I8", "F8", "F8"))})
-    codes = [SimpleNamespace(build=lambda: made, fingerprint=lambda name=name: name) for name in ("one", "two")]
+    codes = [SimpleNamespace(build=lambda cpu: made, fingerprint=lambda name=name: name) for name in ("one", "two")]
     make_here([(code, tmp_path / code.fingerprint()) for code in codes])
     for name in ("one", "two"):
         assert ahead.read(tmp_path / name) == bitcode(name)
     with pytest.raises(OSError, match=r"could not be made|No such file"):
         make_here([(codes[0], tmp_path / "nowhere" / "one")])
+
+
+def test_loops_are_in_vectors_before_the_processor_is_known():
+    text = str(llvm.parse_bitcode(loop_bitcode(ENGINES["rodas"])))
+    assert text.count(" x double>") > 100  # no pass would put them there when the code is made native
+    assert not [line for line in text.splitlines() if "call" in line and "@llvm.x86." in line]
 
 
 def test_what_is_missing_is_made_by_one_process_that_is_told_all_of_it(installed, monkeypatch):

@@ -24,7 +24,7 @@ from fairlead.processor import tell_numba
 
 ROOMS = ("memory", "linear", "point", "record", "events")
 """Rooms that the machine code of every loop is made of."""
-FILES = ("codes.py", "one_step.py", "loop.py", "link_once.py")
+FILES = ("codes.py", "one_step.py", "loop.py", "link_once.py", "bitcode.py")
 """Files of this folder beside them."""
 
 
@@ -62,9 +62,10 @@ class Compiled:
         """Have the machine code in the cache; True if it was."""
         return self.loaded().cached
 
-    def build(self, reason: str = "") -> native.Build:
-        """The functions, compiled by numba now; `reason` says why it must be."""
+    def build(self, reason: str = "", *, cpu: str = "") -> native.Build:
+        """The functions, compiled by numba now (`reason`: why) for the processor of that name, else the chosen one."""
         numba_or_reason(self.module, reason)
+        tell_numba(cpu)
         return _build_sundials() if self.module == KERNELS else _build(self.module)
 
 
@@ -122,7 +123,6 @@ def sources_of(name: str) -> list[pathlib.Path]:
 def _build(module: str) -> native.Build:
     import numba
 
-    tell_numba()
     from fairlead.integrate.link_once import linked_once
     from fairlead.integrate.loop import loop_of
 
@@ -158,7 +158,6 @@ def compiled_sundials() -> dict[str, Callable[..., int]]:
 def _build_sundials() -> native.Build:
     import numba
 
-    tell_numba()
     from fairlead.integrate.link_once import linked_once
 
     kernels = importlib.import_module(KERNELS)
