@@ -10,6 +10,7 @@ from fairlead.integrate.events.bumps import floor_of
 from fairlead.integrate.events.guards import guards_at
 from fairlead.integrate.events.limits import AT_LIMIT
 from fairlead.integrate.memory.foreign import compiled, indices, reals
+from fairlead.integrate.point.illinois import LEFT, RIGHT, shares_of_ends
 from fairlead.integrate.point.interpolant import interpolate_one
 
 CLOSE = 4e-16
@@ -55,21 +56,23 @@ def any_touches(guards):
 
 @compiled
 def zero_of(point, row):
-    """Where unknown `row`, whose ends have opposite signs, is zero on the interpolant (Illinois: crossing.locate)."""
+    """Where unknown `row`, whose ends have opposite signs, is zero on the interpolant."""
     a, b = 0.0, 1.0
     left, right = reals(point.at_y, point.n)[row], reals(point.at_y_end, point.n)[row]
-    last = 0
+    of_left, of_right, last = 1.0, 1.0, 0
     for _ in range(MOST_SECANTS):
-        x = b - (b - a) * (right / (right - left))
+        ga, gb = of_left * left, of_right * right
+        x = b - (b - a) * (gb / (gb - ga))
         if b - a <= CLOSE or not a < x < b:
             break
         value = interpolate_one(point, x, row)
         if value == 0.0:
             return x
-        if (value < 0.0) == (left < 0.0):
-            right *= 0.5 if last == -1 else 1.0
-            a, left, last = x, value, -1
+        moved = LEFT if (value < 0.0) == (left < 0.0) else RIGHT
+        if moved == LEFT:
+            a, left = x, value
         else:
-            left *= 0.5 if last == 1 else 1.0
-            b, right, last = x, value, 1
+            b, right = x, value
+        of_left, of_right = shares_of_ends(of_left, of_right, last, moved)
+        last = moved
     return x

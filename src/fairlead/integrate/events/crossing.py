@@ -21,6 +21,7 @@ from fairlead.integrate.events.edges import find_edge
 from fairlead.integrate.events.guards import guards_at
 from fairlead.integrate.events.limits import AT_LIMIT, weigh_limits
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
+from fairlead.integrate.point.illinois import LEFT, RIGHT, shares_of_ends
 
 NONE, CROSSING, COMPANION = 0, 1, 2
 ALWAYS = 2.0
@@ -174,7 +175,7 @@ def collect_fired(guards, crossed):
 def locate(m, h, right_end):
     """Close a bracket on the earliest crossing to rounding in t; `run.cut_at` is its right-hand end.
 
-    Illinois method (Dowell, Jarratt, BIT 11:168, 1971) on the whole vector: the next point is the
+    The rule of Illinois (point/illinois.py) on the whole vector: the next point is the
     earliest secant root of all guards that cross in the bracket, so the first of them is found
     without locating the others; a point that does not shrink the bracket well is followed by a
     bisection.
@@ -187,14 +188,14 @@ def locate(m, h, right_end):
     left, right, probe = reals(guards.at_g_left, ng), reals(guards.at_g_right, ng), reals(guards.at_g_probe, ng)
     since = reals(guards.at_g_since, ng)
     a, b = 0.0, right_end
-    bias_left, bias_right, last = 1.0, 1.0, 0
+    of_left, of_right, last = 1.0, 1.0, 0
     closeness = max(4e-16 * max(abs(point.t), abs(point.t + h)) / h, 4e-16)
     width, slow = b - a, 0
     while b - a > closeness:
         x = b
         for i in range(ng):
             if left[i] < 0.0 and right[i] >= 0.0:
-                ga, gb = bias_left * left[i], bias_right * right[i]
+                ga, gb = of_left * left[i], of_right * right[i]
                 x = min(x, b - (b - a) * (gb / (gb - ga)))
         if slow >= 3:
             x = 0.5 * (a + b)
@@ -208,16 +209,15 @@ def locate(m, h, right_end):
             if x < since[i]:
                 probe[i] = left[i]
             crossed = crossed or (left[i] < 0.0 and probe[i] >= 0.0)
+        moved = RIGHT if crossed else LEFT
         if crossed:
             b = x
             copy(probe, right)
-            bias_left = 0.5 * bias_left if last == 1 else 1.0
-            bias_right, last = 1.0, 1
         else:
             a = x
             copy(probe, left)
-            bias_right = 0.5 * bias_right if last == -1 else 1.0
-            bias_left, last = 1.0, -1
+        of_left, of_right = shares_of_ends(of_left, of_right, last, moved)
+        last = moved
         slow = slow + 1 if b - a > 0.5 * width else 0
         width = b - a
     m.run.cut_at = b

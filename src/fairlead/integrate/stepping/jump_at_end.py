@@ -14,6 +14,7 @@ from __future__ import annotations
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
+from fairlead.integrate.point.illinois import LEFT, RIGHT, shares_of_ends
 from fairlead.integrate.stepping.other_zones import forces_if_switched, switch_back, switch_for_now
 
 LOCATING = 6
@@ -136,23 +137,23 @@ def locate_guard(problem, run, point, guards, h, i):
         return 0.0
     left, right = 0.0, 1.0
     before, after = reals(guards.at_g, guards.n_guards)[i], reals(guards.at_g_end, guards.n_guards)[i]
-    s, last = 0.0, 0
+    s, of_left, of_right, last = 0.0, 1.0, 1.0, 0
     for _ in range(LOCATING):
-        s = left + (right - left) * before / (before - after)
+        ga, gb = of_left * before, of_right * after
+        s = left + (right - left) * ga / (ga - gb)
         for k in range(point.n):
             probe[k] = y[k] + s * (y_end[k] - y[k])
         evaluate_guards(problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
         here = reals(guards.at_g_probe, guards.n_guards)[i]
         if here == 0.0:
             return s
-        if here < 0.0:
+        moved = LEFT if here < 0.0 else RIGHT
+        if moved == LEFT:
             left, before = s, here
-            after *= 0.5 if last == -1 else 1.0  # an end that is kept twice
-            last = -1
         else:
             right, after = s, here
-            before *= 0.5 if last == 1 else 1.0
-            last = 1
+        of_left, of_right = shares_of_ends(of_left, of_right, last, moved)
+        last = moved
     return s
 
 
