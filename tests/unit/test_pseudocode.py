@@ -1,7 +1,7 @@
-"""Pseudocode of docs/ calls what the code calls, in the same order, and the page of `stepping` names what there is.
+"""Pseudocode of docs/ calls what the code calls, in the same order.
 
-A block below `<!-- pseudocode: FILE FUNCTION -->` is that function of src/fairlead/integrate/: its calls are those of the
-function, all of them, in the order in which they are written there. Only what is in SMALL is left out.
+A block below `<!-- pseudocode: FILE FUNCTION -->` is that function of src/fairlead/integrate/: its calls are those of
+the function, all of them, in the order in which they are written there. Only what is in SMALL is left out.
 """
 
 import ast
@@ -14,9 +14,6 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"^<!-- pseudocode: (\S+) (\w+) -->\n```text\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
 CALL = re.compile(r"\b([a-z_]+)\(")
-NAMED = re.compile(r"`([a-z_]+)\.([A-Za-z_]+)`((?:, `[A-Za-z_]+`)*)")
-FILES = {file.stem: file for file in sorted((ROOT / "src" / "fairlead" / "integrate").rglob("*.py"))}
-CODES = {"FREE"}  # a number that says "none"
 SMALL = {"isfinite", "keep_larger", "memory_at", "min", "rounded"}
 """What is done to numbers, or where the memory is; not shown."""
 
@@ -63,46 +60,3 @@ def test_calls_are_read_in_the_order_in_which_they_are_written() -> None:
     assert written("h = propose()\ntake(h): judge(h), reject(h)   # a word (in brackets)") == [
         "propose", "take", "judge", "reject",
     ]  # fmt: skip
-
-
-def defined(file: pathlib.Path) -> Iterator[tuple[str, ast.expr | None]]:
-    """Names of the functions of a file, and of its constants with their values."""
-    for node in ast.parse(file.read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.FunctionDef):
-            yield node.name, None
-        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            yield node.targets[0].id, node.value
-        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
-            assert isinstance(node.value, ast.Tuple)
-            for target, value in zip(node.targets[0].elts, node.value.elts, strict=True):
-                assert isinstance(target, ast.Name)
-                yield target.id, value
-
-
-def is_measure(value: ast.expr) -> bool:
-    """True of a number that is not whole: what is counted, or is a code, is."""
-    return any(isinstance(one, ast.Constant) and isinstance(one.value, float) for one in ast.walk(value))
-
-
-def named() -> set[tuple[str, str]]:
-    """(file, name) of all that the page of `stepping` names as `file.name`, or beside such a name."""
-    text = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
-    found = set()
-    for file, name, others in NAMED.findall(text):
-        if file in FILES and name != "py":
-            found |= {(file, name), *((file, other) for other in re.findall(r"`(\w+)`", others))}
-    return found
-
-
-def test_functions_and_constants_that_the_page_of_stepping_names_exist() -> None:
-    there = {(file, name) for file in {file for file, _ in named()} for name, _ in defined(FILES[file])}
-    assert len(named()) > 40
-    assert named() <= there, named() - there
-
-
-def test_every_measure_in_stepping_has_its_reason_on_the_page() -> None:
-    room = [file for file in FILES.values() if file.parent.name == "stepping"]
-    measures = {(file.stem, name) for file in room for name, value in defined(file) if value and is_measure(value)}
-    assert {("repeated", "AT_PLACE"), ("limit_violation", "BEYOND")} <= measures
-    missing = {one for one in measures - named() if one[1] not in CODES}
-    assert not missing
