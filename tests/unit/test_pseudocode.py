@@ -60,3 +60,13 @@ def test_calls_are_read_in_the_order_in_which_they_are_written() -> None:
     assert written("h = propose()\ntake(h): judge(h), reject(h)   # a word (in brackets)") == [
         "propose", "take", "judge", "reject",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("page", ["integrator", "stepping"])
+def test_no_heading_of_a_page_on_the_engine_covers_more_than_a_screen(page: str) -> None:
+    """Of 50 lines; what a fence holds is no heading."""
+    text = re.sub(r"^```.*?^```$", lambda block: "\n" * block[0].count("\n"), (ROOT / "docs" / f"{page}.md").read_text(
+        encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)  # fmt: skip
+    lengths = [section.count("\n") for section in re.split(r"^#+ ", text, flags=re.MULTILINE)]
+    assert len(lengths) > 10
+    assert max(lengths) < 50
