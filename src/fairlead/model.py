@@ -343,9 +343,10 @@ class Model:
 
     def _renewed(self, values: Mapping[str, float | str], near: Model | None) -> Model:
         """`beside`, with arguments that are sound."""
+        from fairlead.netlist.settings_file import as_settings
         from fairlead.renewal import renew
 
-        given = {**self._overrides, **as_text(values)}
+        given = {**self._overrides, **as_settings(values, GIVEN)}
         new = Model(self._sources, given, self.libraries, allow_fmu=self.allow_fmu)
         if new._faults:
             new.check()
@@ -391,13 +392,3 @@ def _one_of(call: str, name: str, value: str, allowed: Collection[str]) -> None:
     asked = Arguments(call)
     asked.one_of(name, value, allowed)
     asked.refuse()
-
-
-def as_text(values: Mapping[str, float | str]) -> dict[str, str]:
-    """Values as a command line has them; a text that knows its place keeps it, the others were given by `set`."""
-    from fairlead.netlist.settings_file import Setting
-
-    texts = {"True": "true", "False": "false"}
-    return {name: value if isinstance(value, Setting)
-            else Setting(value if isinstance(value, str) else texts.get(str(value), str(value)), GIVEN)
-            for name, value in values.items()}  # fmt: skip

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from fairlead.arguments import Arguments, keywords_told, told_of
 from fairlead.errors import ModelError, UsageError
-from fairlead.model import Model, Place, Progress, as_text
+from fairlead.model import GIVEN, Model, Place, Progress
 
 if TYPE_CHECKING:
     from fairlead.netlist.keywords import RunKeywords
@@ -43,11 +43,13 @@ def opened(path: str | os.PathLike[str], set: Mapping[str, str | float] | None,
            draft: str | None = None) -> Model:  # fmt: skip
     """As `load`, with arguments that are sound; `draft` is the text of the netlist as an editor has it."""
     from fairlead.netlist.load import read
+    from fairlead.netlist.settings_file import as_settings
 
     sources, faults = read(path, draft)
     if sources is None:
         raise ModelError(faults)
-    model = Model(sources, as_text(set or {}), tuple(os.fspath(each) for each in libraries), allow_fmu=allow_fmu)
+    given, folders = as_settings(set or {}, GIVEN), tuple(os.fspath(each) for each in libraries)
+    model = Model(sources, given, folders, allow_fmu=allow_fmu)
     if model._faults or not all(map(_is_python, model.libraries)):
         model.check()
     if set and _fits_are_known_late(model.netlist, set):

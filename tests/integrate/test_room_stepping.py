@@ -73,6 +73,13 @@ def unseen():
 
 
 @functools.cache
+def unseen_of_rope():
+    from fairlead.integrate.stepping.limit_violation import unseen_force
+
+    return entry(unseen_force, ("",), "d", "d")
+
+
+@functools.cache
 def error():
     from fairlead.integrate.stepping.step_error import find_error
 
@@ -247,11 +254,12 @@ H, MASS, OF_PLACE, OF_SPEED, OF_FORCE = 0.02, 3.0, 1e-5, 1e-3, 1e-2
 
 def one_body(stiffness=0.0, inertia=MASS, weights=(OF_PLACE, OF_SPEED, OF_FORCE), **given):
     """Place, speed and the force of a contact that holds the body; v' = -k x/m + ..."""
-    return memory(
-        {"n": 3, "n_machines": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})},
-        weight=weights, held_inertia=[inertia], body_starts=[0, 1], body_position=[0], body_speed=[1], hold_row=[2],
-        jacobian_starts=[0, 1, 2, 2], jacobian_rows=[1, 0], jacobian=[-stiffness, 1.0], **given,
-    )  # fmt: skip
+    numbers = {"n": 3, "n_machines": 1, "n_guards": 1, "n_body_speed": 1, "n_jacobian": 2, **given.pop("numbers", {})}
+    arrays = {
+        "weight": weights, "held_inertia": [inertia], "body_starts": [0, 1], "body_position": [0], "body_speed": [1],
+        "hold_row": [2], "jacobian_starts": [0, 1, 2, 2], "jacobian_rows": [1, 0], "jacobian": [-stiffness, 1.0],
+    }  # fmt: skip
+    return memory(numbers, **arrays | given)
 
 
 def test_a_peak_of_force_moves_the_body_for_the_step_or_until_a_spring_takes_it_up():
@@ -305,6 +313,32 @@ def test_a_contact_that_lets_go_inside_a_step_hides_the_speed_of_the_page_on_the
     missed = rate * H**2 / (2 * MASS) * (share**2 if lets_go else (1 - share) ** 2)
     assert unseen()(at, H) == pytest.approx(missed / OF_SPEED / (10.0 if smooth else 1.0), rel=1e-9)
     assert at.number["worst"] == 2
+
+
+@pytest.mark.parametrize("share", [0.5, 0.6, 0.8, 0.95])
+@pytest.mark.parametrize("over", [-3.0, -0.01, 0.01, 2.0])
+def test_a_rope_that_comes_taut_beside_a_contact_counts_as_twice_the_way_it_moves_the_body_at_most(share, over):
+    """It pulls from s h on with r (t - s h), at the end by F above the limit: F T^2/6m in the time T = F/r <= h/2."""
+    limit = 5.0
+    pull = limit + over  # at the end
+    at = one_body(
+        numbers={"n_machines": 2, "n_guards": 2}, zones=[0, 1], zones_at_start=[0, 0], holds=[0, 0, 1],
+        g_end=[-limit, -limit], first_guard=[0, -1], guard_machine=[0, 0], limit_guard=[1, 1], x=np.zeros(3),
+        y_end=np.zeros(3), hold_row=[2, -1], body_starts=[0, 1, 1], held_inertia=[MASS, 0.0],
+    )  # fmt: skip
+
+    def forces(t, y, f):
+        f[:] = (0.0, pull, 0.0)
+
+    kept = fields(at, 3, forces=(forces, 3))
+    wrong = unseen_of_rope()(at, H) * OF_PLACE
+    assert kept
+    if over <= 0.0:
+        assert wrong == 0.0
+        return
+    lasting = over / (pull / (1.0 - share) / H)
+    assert wrong >= 2.0 * over * lasting**2 / (6.0 * MASS)
+    assert wrong == pytest.approx(over * H**2 / 12.0 / MASS, rel=1e-9)
 
 
 @pytest.mark.parametrize("speed", [0.0, 2.0])

@@ -18,7 +18,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # `testing` is the contract suite that ships with the package; the empty name is `fairlead/__init__.py` itself.
 ALLOWED = {
     "errors": set(),
-    "quantities": {"errors"},
+    "units": set(),
+    "quantities": {"errors", "units"},
     "processor": {"errors"},
     "versions": set(),
     "sealed": set(),

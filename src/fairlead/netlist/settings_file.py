@@ -33,6 +33,14 @@ class Setting(str):
         return str(self), self.where
 
 
+def as_settings(values: Mapping[str, float | str], where: Location) -> dict[str, str]:
+    """Values as a command line has them; a text that knows its place keeps it, the others were given at `where`."""
+    texts = {"True": "true", "False": "false"}
+    return {name: value if isinstance(value, Setting)
+            else Setting(value if isinstance(value, str) else texts.get(str(value), str(value)), where)
+            for name, value in values.items()}  # fmt: skip
+
+
 def read_settings(path: str | os.PathLike[str]) -> dict[str, str]:
     """The settings of a file. Raises UsageError when it cannot be read, ModelError with every line that is none."""
     file = Path(path)

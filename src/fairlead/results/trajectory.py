@@ -17,7 +17,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,7 +35,7 @@ from fairlead.results.named import Names
 from fairlead.results.plateau import first_row
 from fairlead.results.retrieve import SeriesReader
 from fairlead.results.seal import require_intact
-from fairlead.results.signal import Signal
+from fairlead.results.series import Series
 from fairlead.results.store import SERIES_FILE
 
 if TYPE_CHECKING:
@@ -55,21 +55,6 @@ class Extremes(NamedTuple):
     t_lowest: float
     highest: float
     t_highest: float
-
-
-class Series(Protocol):
-    """Recorded signals, wherever they lie."""
-
-    signals: tuple[Signal, ...]
-
-    def time(self) -> NDArray[np.float64]:
-        """Return the recorded times (n,) [s]."""
-
-    def side(self) -> NDArray[np.int8]:
-        """Return the side of an event of every row (n,)."""
-
-    def values(self, names: list[str]) -> NDArray[np.float64]:
-        """Return the values (n, len(names)) of recorded signals."""
 
 
 class Result:

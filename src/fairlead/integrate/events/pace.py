@@ -1,4 +1,7 @@
-"""How long the next step is to be, and what becomes of one that is accepted: the same for all methods."""
+"""How long the next step is to be, and what becomes of one that is accepted: the same for all methods.
+
+Only `stepping` chooses the length after an accepted step anew (stepping/history.py), once `accept` has.
+"""
 
 from __future__ import annotations
 

@@ -12,8 +12,9 @@ times an eigenvalue, a motion that is held until s h and decays then is multipli
 
 with R = 1 + w - w^3/12 + w^4/48 = e^z + O(z^4). At w = -2, where z is large, that is -s: what is stiff for the step has
 lost more than half of its speed at the end, and all of it a step later, since R is zero there. The term -s w is the one
-above. The next two come with the two solves of third_order.py and a third one, by the weights of `put_jumps_right`; the
-last since the first of these solves sees f at the end as the impulse has moved it.
+above. The next two come with the two solves of third_order.py and a third one, by the weights of `ask_of_rows`: of a
+row its `kick` is s J, `kick_first` and `kick_second` are what goes into the right-hand sides of these solves. The last
+comes since the first of them sees f at the end as the impulse has moved it.
 
 s is told by the line through two middles of steps, as long as the force is not at its limit in the middle of a step the
 contact holds. So s is above -1/2 for steps of one length, and below 1/2: negative where the limit was reached in the

@@ -79,7 +79,8 @@ def unseen_force(m, h):
     """Largest error, in weights, of what holds at the end of a step in which a law came into force by a position.
 
     The mean force that holds knows half of what such a law has come to at the end, or nothing. A body whose contact
-    cannot hold what is left over there has moved meanwhile: by up to F h^2/(12 m), F beyond either limit.
+    cannot hold what is left over there has moved meanwhile: by F h^2/(24 m) at most, F beyond either limit, if the law
+    grows evenly from the middle of the step on (docs/stepping.md). Twice that counts.
     """
     problem, point, contacts = m.problem, m.point, m.stepping.contacts
     zones = indices(problem.at_zones, problem.n_machines)

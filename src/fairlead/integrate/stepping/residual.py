@@ -86,8 +86,10 @@ def find_residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     """Set b = f - M (y1 - y0)/h, and -slip/h at the end of the step in the rows of held contacts.
 
     friction   the force of a contact is an unknown in u, so all it does to bodies is in f (`call_forces`: all of f but
-               quadratures). The row of its own is its law while it slides, its slip while it holds, with its share
-               of other forces where it closes a circle. `call_drift` gives minus the slip
+               quadratures; what a compiled model sums up there is in system/callbacks/evaluation.py, `evaluate`). The
+               row of its own is its law while it slides, its slip while it holds, with its share of other forces where
+               it closes a circle. `call_drift` gives minus the slip
+    kick       what the mean of a law that jumps inside the step is asked to be, else 0 (jump_inside.py)
 
     What M (y1 - y0)/h says there is just that for a contact that held at the start, on a surface of constant
     speed. For one caught in the step, or on a surface that is accelerated, the law tells the slip; on a node without

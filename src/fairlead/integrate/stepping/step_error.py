@@ -1,6 +1,8 @@
 """The error of one step of `stepping`, in weights.
 
-    mean slopes    k_n of this step; k_n-1 and k_n-2 of the two before
+    mean slopes    k_n of this step; k_n-1 and k_n-2 of the two before: `mean_slope`, `slope_before`, `slope_earlier`
+    distances      gap + h/2 from the middle of the step before to that of this one, `gap` being half of the step
+                   before (0 after a settlement); `gap_before` between the two middles before. [ ] divides by them
     bulge          h^2/8 times the second derivative [k_n, k_n-1]: how far rows inside are off the chord
     difference     h^3/6 [k_n, k_n-1, k_n-2] = h^3 y'''/12, the error of the midpoint rule
     the largest    of these differences and of what they do not show
@@ -8,8 +10,8 @@
 The error of the midpoint rule is taken away before (third_order.py): what is controlled is the error of the step
 without that, which is more than what is left of it.
 With a theta above 1/2 nothing is taken away, and the step misses (theta - 1/2) h^2 y'' besides: that comes on top.
-Controlled are all differential unknowns but speeds that have a position (x' = v); these too where a step ends at its
-switch, by located_step.py, which counts ten times the error. A contact that starts
+Controlled are all differential unknowns but speeds of bodies that have a position (prepare.controlled); these too
+where a step ends at its switch, by located_step.py, which counts ten times the error. A contact that starts
 or stops inside a step bends the motion there: the speed at the end of the step is then still right to
 order 2, while a difference of accelerations sees a jump; the position it leads to is wrong by order
 h^2 times the jump, which is what the difference of speeds says.

@@ -14,6 +14,11 @@ is not in the formula, and h^2 times the second derivative of such a motion is n
 
     W (e/2) = f1 - f0 + 4 c            W (d/2) = q/3 - J e/12 - 2 c/3
 
+In `move_by_error`: e/2 is what the first solve leaves in b, e/12 is `twelfth`, c is `chord_defect`, f0 and f1 are `f0`
+and `f1`; f(u) is not evaluated again, since it is M (y1 - y0)/h + `kick` once the step is solved (`kick`, `first` and
+`second` are of laws that jump, jump_inside.py). d/2 is what the last solve leaves in b. These arrays are scratch of
+point and hold other things elsewhere: `point.error_vector` is c here, and the error of the step in step_error.py.
+
 f is linear enough for that inside a step, whose zones are frozen; q tells what depends on time or is curved. Contacts
 that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12: never
 by more than one in the left half plane, by -1/3 where z is large. So what is stiff for a step dies away, where the
