@@ -50,3 +50,20 @@ def keep_first(events):
             first, lowest = fired[k], rank[z]
     fired[0] = first
     guards.n_fired = 1
+
+
+@compiled
+def keep_worst(events, half):
+    """Of the violators in `fired` keep the one whose guard is most `wrong`; with `half` all at least HALF as wrong."""
+    guards = events.guards
+    fired, wrong = indices(guards.at_fired, guards.n_guards), reals(events.settling.at_wrong, guards.n_guards)
+    worst = fired[0]
+    for k in range(guards.n_fired):
+        if wrong[fired[k]] > wrong[worst]:
+            worst = fired[k]
+    kept = 0
+    for k in range(guards.n_fired):
+        if fired[k] == worst or (half and wrong[fired[k]] >= HALF * wrong[worst]):
+            fired[kept] = fired[k]
+            kept += 1
+    guards.n_fired = kept

@@ -18,6 +18,8 @@ DOUBT = 0.1
 """How much shorter a step is tried when a guard that falls by the slopes at the point, where the zones were just
 settled, does not in the step: the interpolant of a long step is rough at its start. To settle there again
 would change nothing, and the next step be as long."""
+NEARLY_THERE = 0.99
+"""Share of the way to a time event from which on a step that control wants goes all of it: no other could follow."""
 INSTANT = 1e-13
 """Share of the time, or of the span, below which two time events are one: in a step as short matrices are rounding."""
 
@@ -40,7 +42,7 @@ def propose(run, point):
     h = shorten_for_growth(run, point, min(run.h_next, run.max_step))
     run.h_wanted = h
     run.landing = 0
-    if h >= rest * (0.99 if run.adaptive == 1 else 1.0 - 1e-9):
+    if h >= rest * (NEARLY_THERE if run.adaptive == 1 else 1.0 - 1e-9):
         run.landing = 1
         return rest
     if run.adaptive == 1 and h > 0.5 * rest:

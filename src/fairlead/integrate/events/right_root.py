@@ -45,7 +45,7 @@ def find_consistent(m, iterations):
     status = make_consistent(m, iterations)
     if m.problem.n_pressing == 0 or (status != DONE and status != NOT_CONSISTENT):
         return status
-    if status == DONE and are_rigid(m):
+    if status == DONE and are_rigid(m.problem, m.point, m.linear):
         return status
     return try_signs(m, iterations, status)
 
@@ -53,34 +53,33 @@ def find_consistent(m, iterations):
 @compiled
 def try_signs(m, iterations, first):
     """Begin Newton from forces of other signs until rigid parts can have its answer; else the first one, as it was."""
-    point, count = m.point, m.problem.n_pressing
+    problem, point, count = m.problem, m.point, m.problem.n_pressing
     keep(point)
     few = count <= MOST_COMBINED
     for trial in range(1, 1 << count if few else count + 1):
         if few:
             give_back(point)
-            mark(m, trial)
-        turn_marked(m)
+            mark(problem, trial)
+        turn_marked(problem, point)
         status = solved_here(m, iterations)
-        if status == INACCURATE or (status == DONE and are_rigid(m)):
+        if status == INACCURATE or (status == DONE and are_rigid(problem, point, m.linear)):
             return status
     give_back(point)
     return solved_here(m, iterations) if first == DONE else first
 
 
 @compiled
-def mark(m, bits):
+def mark(problem, bits):
     """Mark the forces of these bits."""
-    count = m.problem.n_pressing
-    wrong = indices(m.problem.at_pressing_wrong, count)
+    count = problem.n_pressing
+    wrong = indices(problem.at_pressing_wrong, count)
     for k in range(count):
         wrong[k] = (bits >> k) & 1
 
 
 @compiled
-def turn_marked(m):
+def turn_marked(problem, point):
     """Turn the forces that are marked, and give all of them at least their nominal size."""
-    problem, point = m.problem, m.point
     count = problem.n_pressing
     rows, wrong = indices(problem.at_pressing_row, count), indices(problem.at_pressing_wrong, count)
     y = reals(point.at_y, point.n)
@@ -100,69 +99,68 @@ def solved_here(m, iterations):
 
 
 @compiled
-def are_rigid(m):
+def are_rigid(problem, point, linear):
     """True if rigid parts can have the forces of this point. If not, of many those are marked that are wrong."""
-    find_answers(m)
-    count = m.problem.n_pressing
-    wrong = indices(m.problem.at_pressing_wrong, count)
+    find_answers(problem, point, linear)
+    count = problem.n_pressing
+    wrong = indices(problem.at_pressing_wrong, count)
     wrong[:] = 0
     if count > MOST_COMBINED:
-        return are_rigid_in_turn(m)
+        return are_rigid_in_turn(problem)
     bits, rigid = 1, True
     while rigid and bits < 1 << count:
-        rigid = last_pivot(m, bits) >= 0.0
+        rigid = last_pivot(problem, bits) >= 0.0
         bits += 1
     return rigid
 
 
 @compiled
-def find_answers(m):
+def find_answers(problem, point, linear):
     """Set answer[i, k]: how much force i answers a push by one at part k, in the sense of rigid parts."""
-    problem, point = m.problem, m.point
     count = problem.n_pressing
     rows, signs = indices(problem.at_pressing_row, count), indices(problem.at_pressing_sign, count)
     answer, pushed = reals(problem.at_pressing_answer, count * count), reals(point.at_x, point.n)
     for k in range(count):
         pushed[:] = 0.0
         pushed[rows[k]] = signs[k]
-        solve(m.linear, point.at_x)
+        solve(linear, point.at_x)
         for i in range(count):
             answer[i * count + k] = pushed[rows[i]]
 
 
 @compiled
-def last_pivot(m, bits):
+def last_pivot(problem, bits):
     """Of the answers of these parts: the pivot of the last one, their minor over that without it.
 
     Of subsets in numeric order the one without its last part has passed before: no pivot is below zero.
     """
-    count = m.problem.n_pressing
-    begin_elimination(m)
+    count = problem.n_pressing
+    begin_elimination(problem)
     pivot = 0.0
     for k in range(count):
         if (bits >> k) & 1 == 1:
-            pivot = eliminate(m, k)
+            pivot = eliminate(problem, k)
     return pivot
 
 
 @compiled
-def begin_elimination(m):
+def begin_elimination(problem):
     """Set what is left of the answers to all of them."""
-    square = m.problem.n_pressing**2
-    answer, left = reals(m.problem.at_pressing_answer, square), reals(m.problem.at_pressing_left, square)
+    square = problem.n_pressing**2
+    answer, left = reals(problem.at_pressing_answer, square), reals(problem.at_pressing_left, square)
     for place in range(square):
         left[place] = answer[place]
 
 
 @compiled
-def eliminate(m, k):
+def eliminate(problem, k):
     """Take part k out of the equations of the others; its pivot.
 
     Zero, and nothing is taken out, where it is rounding: as of parts side by side of which any share is right.
     """
-    count = m.problem.n_pressing
-    answer = reals(m.problem.at_pressing_answer, count * count)
-    left = reals(m.problem.at_pressing_left, count * count)
+    count = problem.n_pressing
+    answer = reals(problem.at_pressing_answer, count * count)
+    left = reals(problem.at_pressing_left, count * count)
     pivot = left[k * count + k]
     if not abs(pivot) > ANSWER_ROUNDING * abs(answer[k * count + k]):
         return 0.0
@@ -175,27 +173,27 @@ def eliminate(m, k):
 
 
 @compiled
-def are_rigid_in_turn(m):
+def are_rigid_in_turn(problem):
     """Ask each part by itself and after all others, then after those before it; mark those that are wrong.
 
     After all others its pivot is one over the A of this part alone: the answers of all hide it if there are many.
     """
-    count = m.problem.n_pressing
-    wrong, answer = indices(m.problem.at_pressing_wrong, count), reals(m.problem.at_pressing_answer, count * count)
+    count = problem.n_pressing
+    wrong, answer = indices(problem.at_pressing_wrong, count), reals(problem.at_pressing_answer, count * count)
     rigid = True
     for k in range(count):
-        begin_elimination(m)
+        begin_elimination(problem)
         for other in range(count):
             if other != k:
-                eliminate(m, other)
-        if answer[k * count + k] < 0.0 or eliminate(m, k) < 0.0:
+                eliminate(problem, other)
+        if answer[k * count + k] < 0.0 or eliminate(problem, k) < 0.0:
             wrong[k] = 1
             rigid = False
     if not rigid:
         return False
-    begin_elimination(m)
+    begin_elimination(problem)
     for k in range(count):
-        if eliminate(m, k) < 0.0:
+        if eliminate(problem, k) < 0.0:
             wrong[k] = 1
             rigid = False
     return rigid

@@ -20,7 +20,7 @@ from __future__ import annotations
 from fairlead.integrate.codes import DONE, NO_ROOM, RELEASED, SETTLING_FOR_IT, SINGULAR, TOO_MANY_PASSES
 from fairlead.integrate.events.balance import MOST_JUMPS, jump_to_balance
 from fairlead.integrate.events.chatter import HOLD, watch_chatter, watch_progress
-from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
+from fairlead.integrate.events.least_index import keep_first, keep_worst, number_machines
 from fairlead.integrate.events.left_open import change_to_near_pattern
 from fairlead.integrate.events.no_answer import find_answer
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
@@ -194,7 +194,6 @@ def next_stage(problem, events):
 def choose(problem, events):
     """Of the violators in `fired` keep those that change in this pass."""
     guards, settling = events.guards, events.settling
-    fired, wrong = indices(guards.at_fired, guards.n_guards), reals(settling.at_wrong, guards.n_guards)
     settling.waited += 1
     if guards.n_fired < settling.fewest:
         settling.fewest, settling.waited = guards.n_fired, 0
@@ -207,16 +206,7 @@ def choose(problem, events):
     if settling.stage >= LEAST_INDEX:
         keep_first(events)
         return
-    worst = fired[0]
-    for k in range(guards.n_fired):
-        if wrong[fired[k]] > wrong[worst]:
-            worst = fired[k]
-    kept = 0
-    for k in range(guards.n_fired):
-        if fired[k] == worst or (settling.stage == HALF_AS_WRONG and wrong[fired[k]] >= HALF * wrong[worst]):
-            fired[kept] = fired[k]
-            kept += 1
-    guards.n_fired = kept
+    keep_worst(events, settling.stage == HALF_AS_WRONG)
 
 
 @compiled

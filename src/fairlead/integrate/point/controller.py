@@ -19,6 +19,8 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.even_steps import COARSE, COARSER, root_of_power, rounded
 
 SAFETY, SHRINK_LIMIT, GROW_LIMIT = 0.9, 0.2, 8.0
+AFTER_ERROR, AFTER_NAN = 0.8, 0.25
+"""Of a step that is rejected the next one has this share at most; and that, where its error is no number."""
 RESTART_ERROR = 1e-5
 """Error constant assumed for the first step after a switch. The embedded error of an oscillator with
 amplitude A is about 1e-5 A (h omega)^5 for Rodas5P; 1e-6 cost the belt three rejections per slip, 1e-4
@@ -90,8 +92,8 @@ def step_after_rejection(run, h):
     """A smaller step: by the error if it is a number, else a quarter."""
     if isfinite(run.error):
         factor = SAFETY * run.error**-run.error_exponent
-        return rounded(h * min(max(factor, SHRINK_LIMIT), 0.8), COARSE)
-    return 0.25 * h
+        return rounded(h * min(max(factor, SHRINK_LIMIT), AFTER_ERROR), COARSE)
+    return AFTER_NAN * h
 
 
 @compiled

@@ -14,7 +14,7 @@ through most of as many in this one. Both are guesses; the guards judge what com
 
 from __future__ import annotations
 
-from fairlead.integrate.events.least_index import HALF, keep_first, number_machines
+from fairlead.integrate.events.least_index import keep_first, keep_worst, number_machines
 from fairlead.integrate.events.patterns import note_pattern, remember_pattern
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals, switch_at
 
@@ -140,7 +140,8 @@ def follow_guards(m, h, cascade):
     if settling.one_by_one == 2:
         keep_first(events)
     elif settling.one_by_one == 1:
-        keep_worst(events, contacts, h)
+        find_how_wrong(events, contacts, h)
+        keep_worst(events, True)
     elif cascade:
         hand_on(guards, contacts)
     note_released(run, guards, m.stepping)
@@ -161,22 +162,15 @@ def follow_guards(m, h, cascade):
 
 
 @compiled
-def keep_worst(events, contacts, h):
-    """Of the violators in `fired` keep those at least half as wrong as the worst, by the force each is wrong by."""
+def find_how_wrong(events, contacts, h):
+    """Set `wrong` of the guards in `fired`: the force that each is wrong by."""
     guards = events.guards
     fired, is_limit = indices(guards.at_fired, guards.n_guards), indices(contacts.at_limit_guard, guards.n_guards)
     g, inertia = reals(guards.at_g_end, guards.n_guards), reals(guards.at_guard_inertia, guards.n_guards)
-    wrong, worst = reals(events.settling.at_wrong, guards.n_guards), 0.0
+    wrong = reals(events.settling.at_wrong, guards.n_guards)
     for k in range(guards.n_fired):
         i = fired[k]
-        wrong[k] = g[i] if is_limit[i] == 1 else g[i] * max(inertia[i], 1e-30) / h
-        worst = max(worst, wrong[k])
-    count = 0
-    for k in range(guards.n_fired):
-        if wrong[k] >= HALF * worst:
-            fired[count] = fired[k]
-            count += 1
-    guards.n_fired = count
+        wrong[i] = g[i] if is_limit[i] == 1 else g[i] * max(inertia[i], 1e-30) / h
 
 
 @compiled

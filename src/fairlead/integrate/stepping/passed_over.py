@@ -27,6 +27,8 @@ from fairlead.integrate.stepping.jump_at_end import has_hold_row
 from fairlead.integrate.stepping.limit_violation import BEYOND
 from fairlead.integrate.stepping.other_zones import forces_if_switched, state_off
 
+PER_PARABOLA = 1.5
+"""Largest value of a parabola between two zeros over its mean: what follows one has two thirds of the impulse."""
 PARTS = 8
 """No step is longer than an eighth of the period of what swings in time alone, so a period has 64 parts or more."""
 
@@ -53,7 +55,7 @@ def find_touch(m, h):
         t_third = 0.5 * h
     kink, soonest = indices(m.problem.at_kink_guard, ng), 1.0
     for i in range(ng):
-        if not (g[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(m, i)):
+        if not (g[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(guards, m.stepping.contacts, i)):
             continue
         slope = (end[i] - g[i]) / h
         curve = (slope - (third[i] - g[i]) / t_third) / (h - t_third)  # half of the second derivative
@@ -77,13 +79,13 @@ def evaluate_inside(m, s, h):
 def note_touched(m, s, h):
     """True if a guard of a stop or rope is above its tolerance at the share s of the step; it goes to `t_cut`."""
     evaluate_inside(m, s, h)
-    guards = m.events.guards
+    guards, contacts = m.events.guards, m.stepping.contacts
     g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     start, end = reals(guards.at_g, guards.n_guards), reals(guards.at_g_end, guards.n_guards)
     kink, fired = indices(m.problem.at_kink_guard, guards.n_guards), indices(guards.at_fired, guards.n_guards)
     found, longest = 0, 0.0
     for i in range(guards.n_guards):
-        if g[i] > tolerance[i] and start[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(m, i):
+        if g[i] > tolerance[i] and start[i] < 0.0 and end[i] < 0.0 and kink[i] == 0 and is_free(guards, contacts, i):
             fired[found] = i
             found += 1
             longest = max(longest, sqrt(g[i] / (g[i] - max(start[i], end[i]))))
@@ -102,14 +104,14 @@ def impulse_counts(m, s, h, found, lasting):
     problem, point, t = m.problem, m.point, m.point.t + s * h
     at_y = point.at_y_probe
     forces_if_switched(problem, point, m.events.guards, m.stepping.contacts, t, at_y, at_y, found)
-    return state_off(m, h, lasting, 1.5) >= 0
+    return state_off(m, h, lasting, PER_PARABOLA) >= 0
 
 
 @compiled
-def is_free(m, i):
+def is_free(guards, contacts, i):
     """True if guard i is of a machine that holds nothing."""
-    z = indices(m.events.guards.at_guard_machine, m.events.guards.n_guards)[i]
-    return z >= 0 and not has_hold_row(m.stepping.contacts, z)
+    z = indices(guards.at_guard_machine, guards.n_guards)[i]
+    return z >= 0 and not has_hold_row(contacts, z)
 
 
 @compiled
@@ -124,7 +126,7 @@ def find_touch_while_idle(m, h):
             probe[k] = y[k] + s * (y_end[k] - y[k])
         evaluate_guards(m.problem, run, guards, point.t + s * h, point.at_y_probe, guards.at_g_probe)
         for i in range(guards.n_guards):
-            if g[i] > tolerance[i] and is_free(m, i):
+            if g[i] > tolerance[i] and is_free(guards, m.stepping.contacts, i):
                 m.stepping.rule.t_cut = point.t + s * h
                 point.worst = -1
                 return s * h > smallest_step(run, point)

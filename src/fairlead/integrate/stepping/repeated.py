@@ -43,10 +43,13 @@ that share is below 0.7."""
 AT_PLACE = 1e-3
 """Share of a step by which it may end beside the instant of a jump. Of what it misses there, s J h/m, no more is left
 than of its equations (residual.SOLVED)."""
+BEGINNING = 1e-9
+"""Share of the run at which a jump counts as one where the step begins, if nothing moves by then."""
 SETTLED_AHEAD = 2
 """Settlements until switches are inside steps again: that just before a relay switches, and that where it does."""
-THETA_RISE, THETA_FALL = 0.05, 0.9
-"""theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one."""
+THETA_RISE, THETA_FALL, THETA_LEAST = 0.05, 0.9, 1e-3
+"""theta rises by this when the zones of a step cycle; what it rose shrinks by this factor with every accepted one,
+and is nothing from the last on."""
 
 
 @compiled
@@ -123,7 +126,8 @@ def halve_or_replan(m, h):
 @compiled
 def jump_at_start(run, point, rule):
     """True if a law jumps where the step begins: no step could end there."""
-    return rule.t_cut - point.t <= max(min(1e-9 * (run.stop - run.start), still_for(point)), smallest_step(run, point))
+    early = min(BEGINNING * (run.stop - run.start), still_for(point))
+    return rule.t_cut - point.t <= max(early, smallest_step(run, point))
 
 
 @compiled

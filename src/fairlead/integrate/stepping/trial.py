@@ -46,6 +46,7 @@ from fairlead.integrate.stepping.jump_at_end import find_due_jump
 from fairlead.integrate.stepping.located_step import balance_end, holds_with_slip, remember_middle, stop_slip
 from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
+    THETA_LEAST,
     blame,
     end_at_switch,
     find_latch_ahead,
@@ -195,7 +196,7 @@ def accept_step(m, h, crossed):
     run, recorder, rule = m.run, m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
-    rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > 1e-3 else 0.0
+    rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > THETA_LEAST else 0.0
     repeated = run.retried > 0
     accept(m, h, crossed)
     if run.adaptive == 1:
