@@ -5,6 +5,7 @@ stage foresaw is a mistake of fairlead: the user gets a short text to send, and 
 """
 
 import contextlib
+import itertools
 import json
 import os
 import pathlib
@@ -86,6 +87,20 @@ def _loose_unit(error: Exception) -> str:
 
 class Verb(typer.core.TyperCommand):
     """A command whose failures end in one of the documented exit codes."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments. Raises typer.BadParameter for an option that names a file or folder by nothing.
+
+        A variable of the shell that is not set leaves nothing; as a path that would be the working folder.
+        """
+        given = list(args)
+        rest: list[str] = super().parse_args(ctx, args)
+        for option in self.params:
+            path = isinstance(ctx.params.get(option.name or ""), pathlib.Path)
+            for name in option.opts if path and option.opts[0].startswith("-") else ():
+                if f"{name}=" in given or (name, "") in itertools.pairwise(given):
+                    raise typer.BadParameter(f"{name} is given no name. Is a variable of the shell not set?", ctx=ctx)
+        return rest
 
     def invoke(self, ctx: Any) -> Any:
         """Call the verb; translate what it raises.
