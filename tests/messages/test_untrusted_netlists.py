@@ -182,7 +182,8 @@ def test_bytes_that_are_no_text_are_mistakes_of_the_command(tmp_path):
 @pytest.mark.parametrize("given", [{"block.mass": "{1/0} kg"}, {"block.mass": "{nosuch} kg"}, {"block.mass": "{1/0}"}])
 def test_an_expression_from_outside_that_has_no_value_is_told_once(tmp_path, given):
     """It stood for 0 afterwards, and `block.mass = 0 is out of range` was told before it."""
-    text = "schema: 1\ncomponents: {block: {type: Mass, mass: 1 kg}, other: {type: Mass, mass: MASS}}\nrun: {stop: 1 s}\n"
+    parts = "{block: {type: Mass, mass: 1 kg}, other: {type: Mass, mass: MASS}}"
+    text = f"schema: 1\ncomponents: {parts}\nrun: {{stop: 1 s}}\n"
     said = refused(tmp_path, text.replace("MASS", "1 kg"), given)
     assert said.count("block.mass") == 1
     assert "out of range" not in said
