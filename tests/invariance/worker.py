@@ -67,7 +67,7 @@ def in_slices(attempts: int) -> Iterator[None]:
 
 
 LOOPS = ("underway", "driver")
-"""Modules that enter the loop; the second one in checkouts of before the first, of which `--python` plays scenes too."""
+"""Modules that enter the loop; the second one in older checkouts, of which `--python` plays scenes too."""
 
 
 def _is_there(name: str) -> bool:
