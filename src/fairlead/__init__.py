@@ -40,6 +40,8 @@ HOMES = {"Model": "model", "Result": "result", "modes": "studies.modes.modes",
 """Modules of the names above; the others are in `errors`. Each is read in when one of its names is asked for: until the
 command has begun, Ctrl-C would be answered by Python, with a traceback."""
 
+MODULES = ("errors", "model", "simulate")
+"""There without an import of their own, as in `fairlead.errors.RunWarning`."""
 ELSEWHERE = {"sweep": "fairlead.cases.Cases", "Cases": "fairlead.cases.Cases", "fit": "the command fairlead fit",
              "statics": "model.statics()", "check": "model.check()", "start": "model.start()",
              "plot": "result.plot(...)", "report": "the command fairlead report", "open": "fairlead.Result.open(...)",
@@ -49,10 +51,10 @@ ELSEWHERE = {"sweep": "fairlead.cases.Cases", "Cases": "fairlead.cases.Cases", "
 
 
 def __getattr__(name: str) -> Any:
-    if name in __all__:
-        module = f"fairlead.{HOMES.get(name, 'errors')}"
+    if name in __all__ or name in MODULES:
+        module = f"fairlead.{name if name in MODULES else HOMES.get(name, 'errors')}"
         __import__(module)
-        globals()[name] = found = getattr(sys.modules[module], name)
+        globals()[name] = found = sys.modules[module] if name in MODULES else getattr(sys.modules[module], name)
         return found
     from fairlead.errors import did_you_mean
 

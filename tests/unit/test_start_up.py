@@ -54,6 +54,7 @@ def test_all_names_of_the_package_are_there_when_they_are_asked_for() -> None:
 
     assert {*fairlead.__all__} <= {*dir(fairlead)}
     assert {name for name in fairlead.__all__ if getattr(fairlead, name).__name__ != name} == set()
+    assert "fairlead.errors" in loaded_by("import fairlead; fairlead.errors.RunWarning")
 
 
 @pytest.mark.slow
