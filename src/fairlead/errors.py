@@ -128,10 +128,16 @@ class NumericalError(FairleadError):
 def without_echoes(faults: Iterable[Fault], earlier: Iterable[Fault]) -> list[Fault]:
     """The faults of a later stage, less those at a place that an earlier stage has blamed already.
 
-    What stands there could not be read, so whatever a later stage says about it is only an echo.
+    What stands there could not be read, so whatever a later stage says about it is only an echo. What was given by
+    `--set` or an argument has no line; there the place is the path with which both begin (`block.mass: ...`).
     """
-    blamed = {fault.where for fault in earlier if fault.where and fault.where.line}
-    return [fault for fault in faults if fault.where not in blamed]
+    blamed = {_blamed(fault) for fault in earlier if fault.where}
+    return [fault for fault in faults if _blamed(fault) not in blamed]
+
+
+def _blamed(fault: Fault) -> tuple[Location | None, str]:
+    no_line = fault.where is not None and not fault.where.line
+    return fault.where, fault.what.split(" ", 1)[0].rstrip(":") if no_line else ""
 
 
 def no_attribute(owner: object, name: str, called: Mapping[str, str], more: str = "") -> AttributeError:

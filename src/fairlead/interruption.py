@@ -2,7 +2,8 @@
 
     with Interruption() as interruption, RunDirectory.create(...) as directory:
         interruption.between_blocks = True      from here on a signal waits
-        interruption.due()                      raises KeyboardInterrupt if one came meanwhile
+        interruption.due()                      raises KeyboardInterrupt if one came meanwhile: after each block, and
+                                                when the files of the run are closed
 
 After Ctrl-C the program goes on with what was computed. SIGTERM, by which schedulers and `kill` end a process, and
 SIGHUP, by which a terminal that is closed does, end it still, when run.json says so and the files are closed.
@@ -32,7 +33,7 @@ class Interruption:
     """
 
     between_blocks: bool = False
-    """True while the engine hands over blocks, so that a signal can wait for one."""
+    """True from the first block until the files are closed, so that a signal can wait for what is being written."""
     asked: bool = False
     ended_by: signal.Signals | None = None
     """The first signal that has come to end the process."""

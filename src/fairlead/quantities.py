@@ -46,6 +46,9 @@ GROUPED = re.compile(
 )
 """A number with marks of thousands, and the part behind its decimal sign."""
 SUM = re.compile(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?(?: *[*/] *[-+]?[\d.]+)+)(?=$| )")
+OTHER_BASE = re.compile(r"0(?:[xX][0-9a-fA-F]+|[oO][0-7]+|[bB][01]+)(?=$| )")
+OTHER_EXPONENT = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))[dD]([-+]?\d+)(?=$| )", re.ASCII)
+"""Of Fortran."""
 SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "·": "*"})
 
 
@@ -188,6 +191,10 @@ def _other_hand(text: str) -> str:
         return ""
     if text[:1] in MINUSES and NUMBER.match(text[1:]):
         return f"The minus sign of a number is a hyphen: {shown(f'-{text[1:]}')}."
+    if found := OTHER_BASE.match(text):
+        return f"Write a decimal number: {shown(f'{int(found[0], 0)}{text[found.end() :]}')}."
+    if found := OTHER_EXPONENT.match(text):
+        return f"The exponent of a number follows an e: {shown(f'{found[1]}e{found[2]}{text[found.end() :]}')}."
     if found := SUM.match(text):
         return f'Arithmetic goes in braces and quotes: "{{{found[1]}}}{text[found.end() :].rstrip()}".'
     if (grouped := GROUPED.match(text)) is None:

@@ -56,6 +56,7 @@ def renew(old: Stages, new: Stages) -> None:
     why = difference(old.flat, new.flat) or _ledger(old.flat, new.flat) or _by_values(system, new.flat)
     if why:
         new.rebuilt = f"All stages were made anew: {why}."
+        new.system  # noqa: B018 - what a start contradicts is told here, as where the structure is shared
     else:
         new.system = refreshed(system, new.flat)
 

@@ -104,10 +104,10 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       settings.accuracy,
                       peaks, None if kept is None else columns)  # fmt: skip
         outcome = integrate(system, asked, watch)
+        interruption.between_blocks = True  # also where there was no block: what there is gets written
         for controller in outcome.problem.controllers:
             controller.end()
         watch.finish()
-        interruption.between_blocks = False
         outcome = _explained(outcome, system, settings.engine)
         if outcome.status == Status.INTERRUPTED and interruption.ended_by is not None:
             said = outcome.sentence.replace("interrupted", f"ended by {interruption.ended_by.name}")
@@ -122,6 +122,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)
         sink.finish(_status(outcome), summary)
+        interruption.due()
     return Result.of(sink.result())
 
 

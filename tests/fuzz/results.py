@@ -96,7 +96,7 @@ def damaged(dice: Dice, path: pathlib.Path) -> list[str]:
 
 def complaints(path: pathlib.Path) -> list[str]:
     """What is wrong with the answers to a folder of results."""
-    return [*_of_margins(path), *_of_result(path), *_of_a_new_run(path)]
+    return [*_of_margins(path), *_of_report(path), *_of_result(path), *_of_a_new_run(path)]
 
 
 def _of_margins(path: pathlib.Path) -> Iterator[str]:
@@ -112,6 +112,16 @@ def _of_margins(path: pathlib.Path) -> Iterator[str]:
             yield f"margins named no file or no way out: {answer.output!r}"
         if answer.exit_code == 0 and "nan" in answer.output.lower():
             yield f"margins made something of what is no number: {answer.output!r}"
+
+
+def _of_report(path: pathlib.Path) -> Iterator[str]:
+    """The page reads nearly all that run.json holds."""
+    answer = CliRunner().invoke(app, ["report", str(path), "--out", str(path.with_suffix(".html"))])
+    path.with_suffix(".html").unlink(missing_ok=True)
+    if answer.exit_code not in CODES:
+        yield f"report ended with {answer.exit_code}: {answer.exception!r}"
+    if answer.exit_code in (1, 2) and path.name not in answer.output:
+        yield f"report named no file: {answer.output!r}"
 
 
 def _of_result(path: pathlib.Path) -> Iterator[str]:

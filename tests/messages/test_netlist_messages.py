@@ -242,7 +242,7 @@ def test_a_named_pipe_is_refused_and_does_not_hang(tmp_path):
     with pytest.raises(ModelError, match="not a regular file"):
         load(tmp_path / "pipe.yaml")
     text = GOOD + "include: [pipe.yaml]\n"
-    assert "pipe.yaml: there is no such file" in message(tmp_path, text)
+    assert "pipe.yaml is not a regular file" in message(tmp_path, text)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="links need rights on Windows")

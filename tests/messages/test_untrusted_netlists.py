@@ -179,6 +179,43 @@ def test_bytes_that_are_no_text_are_mistakes_of_the_command(tmp_path):
         assert (said.exit_code, "is not a text in UTF-8" in said.output) == (1, True), setting
 
 
+@pytest.mark.parametrize("given", [{"block.mass": "{1/0} kg"}, {"block.mass": "{nosuch} kg"}, {"block.mass": "{1/0}"}])
+def test_an_expression_from_outside_that_has_no_value_is_told_once(tmp_path, given):
+    """It stood for 0 afterwards, and `block.mass = 0 is out of range` was told before it."""
+    parts = "{block: {type: Mass, mass: 1 kg}, other: {type: Mass, mass: MASS}}"
+    text = f"schema: 1\ncomponents: {parts}\nrun: {{stop: 1 s}}\n"
+    said = refused(tmp_path, text.replace("MASS", "1 kg"), given)
+    assert said.count("block.mass") == 1
+    assert "out of range" not in said
+    said = refused(tmp_path, text.replace("MASS", "0 kg"), given)
+    assert "other.mass = 0 kg is out of range" in said
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a privilege there")
+@pytest.mark.parametrize("to", ["a.yaml", "nowhere.yaml"])
+def test_a_link_to_no_file_is_told_as_one(tmp_path, monkeypatch, to):
+    """`Did you mean a.yaml?` was all that was said of a.yaml."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.yaml").symlink_to(to)
+    with pytest.raises(ModelError, match=f"a.yaml: this is a link to {to}, where no file is"):
+        fairlead.load("a.yaml")
+    (tmp_path / "b.yaml").write_text("schema: 1\ninclude: [a.yaml]\nrun: {stop: 1 s}\n")
+    with pytest.raises(ModelError, match=r"b.yaml:2:11: a.yaml(: this is a link to nowhere| is not a usable path)"):
+        fairlead.load("b.yaml")
+
+
+def test_an_include_that_is_a_folder_is_told_as_no_file(tmp_path):
+    (tmp_path / "part.yaml").mkdir()
+    said = refused(tmp_path, "schema: 1\ninclude: [part.yaml]\nrun: {stop: 1 s}\n")
+    assert "a.yaml:2:11: part.yaml is not a regular file" in said
+
+
+def test_a_comma_in_a_number_that_may_be_either_is_told_both_ways(tmp_path):
+    text = "schema: 1\ncomponents: {block: {type: Mass, mass: 1,SOME kg}}\nrun: {stop: 1 s}\n"
+    assert "1.000 kg or 1000 kg" in refused(tmp_path, text.replace("SOME", "000"))
+    assert "not a decimal comma: 1.25 kg" in refused(tmp_path, text.replace("SOME", "25"))
+
+
 def test_a_decimal_comma_is_named(tmp_path):
     said = refused(tmp_path, line(force="'1,5 kN'"))
     assert "a.yaml:5:36: hand.force = 1,5 kN is not a quantity." in said

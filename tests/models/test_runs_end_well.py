@@ -181,6 +181,36 @@ fairlead.load(sys.argv[1]).run(out=sys.argv[2])
     assert len(result.t) == 0
 
 
+@pytest.mark.skipif(os.name != "posix", reason="Windows ends a process without asking it")
+@pytest.mark.parametrize(("name", "code"), [("SIGINT", 130), ("SIGTERM", -signal.SIGTERM), ("SIGHUP", -1)])
+@pytest.mark.parametrize("at", ["SeriesWriter.write", "SeriesWriter.close", "EventWriter.close"])
+def test_a_signal_while_the_last_rows_are_written_waits_until_the_files_are_closed(tmp_path, netlist, name, code, at):
+    """It lost the rows of a run that was over, and run.json said that the run had failed."""
+    script = """
+import os, signal, sys, fairlead
+from fairlead.results import recorder
+signal.signal(getattr(signal, sys.argv[3]), signal.SIG_DFL if sys.argv[3] != "SIGINT" else signal.default_int_handler)
+kind, method = sys.argv[4].split(".")
+kind, sent = getattr(recorder, kind), []
+plain = getattr(kind, method)
+def pressed(*given):
+    if not sent:
+        sent.append(os.kill(os.getpid(), getattr(signal, sys.argv[3])))
+    return plain(*given)
+setattr(kind, method, pressed)
+try:
+    fairlead.load(sys.argv[1]).run(out=sys.argv[2], stop=10.0)
+except KeyboardInterrupt:
+    sys.exit(130)
+"""
+    command = [sys.executable, "-c", script, str(netlist), str(tmp_path / "run"), name, at]
+    assert subprocess.run(command, capture_output=True, timeout=600).returncode == code
+    result = Result.open(tmp_path / "run")
+    assert result.status == "finished"
+    assert "Reached t = 10 s" in result.run["sentence"]
+    assert result.t[-1] == 10.0
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("budget", "word"), [("run.max_steps=20000", "20000 steps"), ("run.max_events=40", "40 events")]

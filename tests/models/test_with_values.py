@@ -241,6 +241,19 @@ def test_mistakes_are_those_of_load(wrong):
     assert mistakes(lambda: model_of("belt").with_values(**wrong)) == want
 
 
+def test_a_start_that_a_given_motion_contradicts_is_told_also_where_all_is_made_anew():
+    """The rope starts at 1 m. With an origin the motion is of another kind, so that nothing is shared."""
+    with pytest.raises(ModelError, match=r"rope.inboard.x starts at 1 m; .* starts at 3 m"):
+        model_of("capstan").with_values({"haul.origin": "3 m"})
+    why = model_of("capstan").with_values({"haul.origin": "1 m"}).rebuilt
+    assert "haul is of another kind (a MotionSource with origin now)" in why
+
+
+def test_a_start_at_minus_zero_is_that_of_a_fresh_model():
+    assert compare(model_of("belt"), "block.position", "-0.0 m") == ""
+    assert np.signbit(model_of("belt").with_values({"block.position": "-0.0 m"}).system.initial).any()
+
+
 @pytest.mark.parametrize(("name", "values"), [
     ("belt", {"pad.normal_force": "12 N"}), ("single_bend", {"mu": 0.6}), ("guidance_route_ideal", {"mu": 0.5}),
 ])  # fmt: skip

@@ -100,6 +100,16 @@ def test_a_setting_without_name_or_value_is_a_usage_error(command: Command, sett
     assert "NAME=VALUE" in answer.stderr
 
 
+@pytest.mark.parametrize("given", [("--out", ""), ("--out=",), ("-o", "")])
+def test_a_folder_without_a_name_is_not_the_working_folder(command: Command, given: tuple[str, ...]) -> None:
+    """Left by a variable of the shell that is not set; with --force files of the working folder would be replaced."""
+    model = StandIn()
+    answer = command("run", "belt", "--force", *given, model=model)
+    assert answer.exit_code == 2
+    assert "is given no name" in answer.stderr
+    assert model.calls == []
+
+
 def test_setting_a_parameter_twice_is_a_usage_error(command: Command) -> None:
     assert command("run", "belt", "--set", "mu=1", "--set", "mu=2").exit_code == 2
 

@@ -14,7 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fairlead.cli import app
-from fairlead.results import Result, RunDirectory, Signal, retrieve
+from fairlead.results import Result, RunDirectory, Signal, retrieve, run_file
 from fairlead.results.damage import DamagedResultsError
 from tests.fuzz import results
 
@@ -54,6 +54,23 @@ def test_an_entry_of_run_json_is_told_by_its_path(sound: Path) -> None:
     assert len(Result.open(sound).t) == 11  # signals are read all the same
     edit(sound, "status", value=3)
     assert "run.json: status = 3:" in refused(sound)
+
+
+@pytest.mark.parametrize(("entry", "value"), [("friction", [{"path": "pad"}]), ("zones", {"pad": 3.5})])
+def test_an_entry_that_a_page_cannot_use_is_no_mistake_of_fairlead_where_somebody_changed_it(tmp_path, entry, value):
+    path = tmp_path / "run"
+    results.template(path)
+    assert not run_file.is_changed(path)
+    edit(path, entry, value=value)
+    assert run_file.is_changed(path)
+    answer = CliRunner().invoke(app, ["report", str(path)])
+    assert answer.exit_code == 1
+    assert f"{path / 'run.json'}: its entries are not those that the run left (SHA-256)" in answer.output
+    record = run_file.load(path)
+    assert run_file.SEAL not in record
+    run_file.write(path, record)  # as if a run had left it so
+    assert not run_file.is_changed(path)
+    assert CliRunner().invoke(app, ["report", str(path)]).exit_code == 70
 
 
 def test_a_run_json_that_is_cut_off_is_not_taken_for_none(sound: Path) -> None:

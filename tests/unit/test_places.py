@@ -1,5 +1,7 @@
 """Where verbs write: a folder or a file in the way is told before any work, and no result is lost to it."""
 
+import os
+
 import pytest
 from typer.testing import CliRunner
 
@@ -122,3 +124,11 @@ def test_friction_of_a_netlist_refuses_what_it_does_not_follow(words, says, tmp_
     answer = CliRunner().invoke(app, ["friction", "belt", *words, "--out", str(tmp_path)])
     assert answer.exit_code == UsageError.exit_code
     assert says in " ".join(answer.output.replace("│", " ").split())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="links need a privilege there")
+@pytest.mark.parametrize("words", [["run", "belt"], ["graph", "belt"]])
+def test_a_link_to_nothing_is_no_place(words, tmp_path) -> None:
+    (tmp_path / "link").symlink_to("nowhere")
+    assert "link is a link to nowhere" in " ".join(refused(words, "--out", tmp_path / "link").split())
+    assert [file.name for file in tmp_path.iterdir()] == ["link"]

@@ -229,6 +229,7 @@ def test_units_that_run_together_get_a_sign_between(typed, meant):
     [("\u22120.3 N", "-0.3 N"), ("\u20133 N", "-3 N"), ("3 000 N", "3000 N"), ("1'300 N", "1300 N"),
      ("1_000 N", "1000 N"), ("1.300,5 N", "1300.5 N"), ("1,300.5 N", "1300.5 N"), ("1,300,000 N", "1300000 N"),
      ("2,5 N", "2.5 N"),
+     ("0x10 N", "16 N"), ("0b11", "3"), ("0o17 N", "15 N"), ("1d3 N", "1e3 N"), ("-2.5D-3 N", "-2.5e-3 N"),
      ("0,005 N", "0.005 N"), ("1/3 N", '"{1/3} N"'), ("2 * 3 N", '"{2 * 3} N"'), ("1 000 000", "1000000")],
 )  # fmt: skip
 def test_a_number_as_others_write_it_is_told_as_it_is_written_here(text, meant):

@@ -42,6 +42,21 @@ def test_starting_loads_nothing_heavy(statement: str) -> None:
     assert loaded_by(statement) & HEAVY == set()
 
 
+def test_until_the_command_answers_ctrl_c_nothing_of_the_package_is_read_in() -> None:
+    """It takes 50 ms; what Ctrl-C met there was told by Python, with a traceback."""
+    found = loaded_by("import fairlead.__main__")
+    assert {name for name in found if name.startswith("fairlead.")} == {"fairlead.__main__"}
+    assert not found & {"dataclasses", "inspect", "ast"}
+
+
+def test_all_names_of_the_package_are_there_when_they_are_asked_for() -> None:
+    import fairlead
+
+    assert {*fairlead.__all__} <= {*dir(fairlead)}
+    assert {name for name in fairlead.__all__ if getattr(fairlead, name).__name__ != name} == set()
+    assert "fairlead.errors" in loaded_by("import fairlead; fairlead.errors.RunWarning")
+
+
 @pytest.mark.slow
 def test_a_model_of_known_classes_runs_without_what_traces_and_compiles_them() -> None:
     run = "import fairlead; fairlead.load('belt').run(out=None, stop=0.1)"

@@ -25,6 +25,9 @@ def refuse_place(
         if above.exists() and not above.is_dir():
             way = printable(str(above))
             raise UsageError(f"{option} {printable(str(path))}: {way} is a file, not a folder.{_OTHER}")
+    if path.is_symlink() and not path.exists():
+        to = printable(str(path.readlink()))
+        raise UsageError(f"{option} {printable(str(path))} is a link to {to}, where nothing is.{_OTHER}")
     if folder and path.exists() and not path.is_dir():
         raise UsageError(f"{option} {printable(str(path))} is a file, and a folder is wanted.{_OTHER}")
     if folder and path.suffix.lower() in OF_FILES and not path.exists():

@@ -5,6 +5,7 @@ stage foresaw is a mistake of fairlead: the user gets a short text to send, and 
 """
 
 import contextlib
+import itertools
 import json
 import os
 import pathlib
@@ -87,6 +88,20 @@ def _loose_unit(error: Exception) -> str:
 class Verb(typer.core.TyperCommand):
     """A command whose failures end in one of the documented exit codes."""
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments. Raises typer.BadParameter for an option that names a file or folder by nothing.
+
+        A variable of the shell that is not set leaves nothing; as a path that would be the working folder.
+        """
+        given = list(args)
+        rest: list[str] = super().parse_args(ctx, args)
+        for option in self.params:
+            path = isinstance(ctx.params.get(option.name or ""), pathlib.Path)
+            for name in option.opts if path and option.opts[0].startswith("-") else ():
+                if f"{name}=" in given or (name, "") in itertools.pairwise(given):
+                    raise typer.BadParameter(f"{name} is given no name. Is a variable of the shell not set?", ctx=ctx)
+        return rest
+
     def invoke(self, ctx: Any) -> Any:
         """Call the verb; translate what it raises.
 
@@ -106,7 +121,7 @@ class Verb(typer.core.TyperCommand):
         except Exception as error:
             if _belongs_to_typer(error):
                 raise
-            if told := _of_disk(error, ctx.params):
+            if told := _of_disk(error, ctx.params) or _of_changed_results(ctx.params):
                 echo(_as_json(told) if as_json else str(told), err=not as_json)
                 raise typer.Exit(told.exit_code) from error
             echo(_report_text(error, verbose), err=True)
@@ -145,6 +160,20 @@ def _of_disk(error: Exception, given: dict[str, Any]) -> FairleadError | None:
     if any(one.absolute() in (file, *file.parents) for one in (*named, pathlib.Path("results"))):
         return FairleadError(told_of_disk(file, error))
     return None
+
+
+def _of_changed_results(given: dict[str, Any]) -> FairleadError | None:
+    """The sentence about a run.json that was changed since its run, which a verb that reads it may not survive."""
+    words = [one for each in given.values() for one in (each if isinstance(each, list | tuple) else [each])]
+    folders = [pathlib.Path(one) for one in words if isinstance(one, str | pathlib.Path)]
+    if not any((one / "run.json").is_file() for one in folders):
+        return None
+    from fairlead.results import run_file
+    from fairlead.results.damage import DamagedResultsError
+
+    what = "its entries are not those that the run left (SHA-256), and one of them cannot be used."
+    return next((DamagedResultsError(one / run_file.RUN_FILE, what) for one in folders if run_file.is_changed(one)),
+                None)  # fmt: skip
 
 
 def _belongs_to_typer(error: Exception) -> bool:

@@ -36,6 +36,8 @@ def find(path: str | os.PathLike[str]) -> Path:
         raise ModelError([Fault(where, "this is a folder, not a netlist", way_out)])
     if _is(asked, Path.exists):
         raise ModelError([Fault(where, "this is not a regular file")])
+    if to := leads_nowhere(Path(asked)):
+        raise ModelError([Fault(where, *to)])
     near = did_you_mean(Path(asked).stem, bundled)
     local = _nearest(Path(), asked) if _is_path(asked) else ""
     if not local and not near and _is_path(asked):
@@ -44,6 +46,14 @@ def find(path: str | os.PathLike[str]) -> Path:
     raise ModelError(
         [Fault(where, "there is no such file or bundled model", f"{local or near} {models}".strip())]
     )
+
+
+def leads_nowhere(path: Path) -> tuple[str, str] | None:
+    """What is wrong with a link that is there and leads to no file, and the way out; None for what is no such link."""
+    if not _is(str(path), Path.is_symlink) or _is(str(path), Path.exists):
+        return None
+    to = shown(str(path.readlink()))
+    return f"this is a link to {to}, where no file is", "Put the file there, or name another one."
 
 
 def _unless_ambiguous(bundled: Path, local: Path, where: Location) -> Path:
@@ -81,6 +91,10 @@ def inside(folder: Path, base: Path, text: str, where: Location | None) -> Path:
         advice = f"Files of a netlist lie in its folder or below, links followed: {display(folder)}."
         raise ModelError([Fault(where, f"{shown(text)} leads out of the folder of the netlist", advice)])
     if not _is(str(file), Path.is_file):
+        if to := leads_nowhere(base / text):
+            raise ModelError([Fault(where, f"{shown(text)}: {to[0]}", to[1])])
+        if _is(str(file), Path.exists):
+            raise ModelError([Fault(where, f"{shown(text)} is not a regular file")])
         advice = _nearest(base, text) or _neighbours(file.parent, file.name)
         raise ModelError([Fault(where, f"{shown(text)}: there is no such file", advice)])
     return file

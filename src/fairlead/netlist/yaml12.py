@@ -186,7 +186,10 @@ class _Composer:
                 of = where.removesuffix(shown(name)) + last
                 point = number.replace(",", ".")
                 what = f"{of} = {shown(number)}: a comma ends an entry"
-                self.faults.append(Fault(before.where, what, f"Write a decimal point, not a decimal comma: {point}."))
+                advice = f"Write a decimal point, not a decimal comma: {point}."
+                if re.match(r"\d{3}(?!\d)", name) and before.content:  # 1,000 kg
+                    advice = f"Write a decimal point or no mark of thousands: {point} or {number.replace(',', '')}."
+                self.faults.append(Fault(before.where, what, advice))
                 return last, replace(before, content=resolve(point))
         if value.content is None and (found := SPACELESS.fullmatch(name)):  # mass:2 kg
             self.complain(event, f"{where}: a space is missing behind the colon", f"Write {found[1]}: {found[2]}.")

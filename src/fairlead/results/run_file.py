@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 import json
 import math
 import os
@@ -29,14 +30,34 @@ KILLED = "killed"
 MOST_BYTES = 2**26
 GIVE = "Give a directory that a run has left, such as results/NAME."
 IDENTITY = ("id", "started", "process", "host")
+SEAL = "seal"
+"""The last entry of the file: SHA-256 of all before it. Readers do not see it."""
 
 
 def write(directory: Path, record: Mapping[str, Any]) -> dict[str, Any]:
     """Replace run.json in one go: a reader sees the old or the new one, never half of it. Gives what `load` would."""
     plain = as_read(record)
-    text = json.dumps(plain, indent=2, ensure_ascii=False, allow_nan=False)
-    place(directory / RUN_FILE, text + "\n")
+    text = _text(plain)
+    place(directory / RUN_FILE, f'{text[:-2]},\n  "{SEAL}": "{_digest(text)}"\n}}\n')
     return plain
+
+
+def _text(plain: Mapping[str, Any]) -> str:
+    return json.dumps(plain, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def is_changed(directory: Path) -> bool:
+    """True if somebody has changed run.json since a run wrote it; False if there is none, or none says what it was."""
+    try:
+        record = json.loads((directory / RUN_FILE).read_text(encoding="utf-8"))
+        seal = record.pop(SEAL, None)
+        return seal is not None and seal != _digest(_text(record))
+    except (OSError, ValueError, RecursionError, AttributeError):
+        return False
 
 
 def amend(directory: Path, record: Mapping[str, Any]) -> None:
@@ -88,6 +109,7 @@ def load(directory: Path) -> dict[str, Any]:
     from fairlead.results.run_schema import check_head
 
     check_head(file, record)
+    record.pop(SEAL, None)
     return record
 
 
