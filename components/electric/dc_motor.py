@@ -12,6 +12,7 @@ class Winding(Component, abstract=True):
     constant = Parameter("N*m/A", "K_t = K_e, torque per current and voltage per speed.", above=0)
     current = Output("A", "Current from plus to minus.")
     torque = Output("N*m", "Torque on the shaft.")
+    loss = Output("W", "Heat of the winding, R i^2; it may feed a HeatActuator.")
 
 
 class ResistiveMotor(Winding):
@@ -20,9 +21,9 @@ class ResistiveMotor(Winding):
     def law(p, plus, minus, shaft):
         """The current follows at once."""
         current = (plus.voltage - minus.voltage - p.constant * shaft.speed) / p.resistance
-        torque = p.constant * current
-        return Law(plus=current, minus=-current, shaft=-torque, current=current, torque=torque,
-                   dissipated=p.resistance * current**2)  # fmt: skip
+        torque, loss = p.constant * current, p.resistance * current**2
+        return Law(plus=current, minus=-current, shaft=-torque, current=current, torque=torque, loss=loss,
+                   dissipated=loss)  # fmt: skip
 
 
 class DcMotor(Winding):
@@ -39,6 +40,6 @@ class DcMotor(Winding):
         """The field of the winding stores energy."""
         voltage = plus.voltage - minus.voltage
         rate = (voltage - p.resistance * flowing - p.constant * shaft.speed) / p.inductance
-        torque = p.constant * flowing
-        return Law(plus=flowing, minus=-flowing, shaft=-torque, flowing=rate, current=flowing, torque=torque,
-                   stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2)  # fmt: skip
+        torque, loss = p.constant * flowing, p.resistance * flowing**2
+        return Law(plus=flowing, minus=-flowing, shaft=-torque, flowing=rate, current=flowing, torque=torque, loss=loss,
+                   stored=p.inductance * flowing**2 / 2, dissipated=loss)  # fmt: skip

@@ -73,6 +73,7 @@ class Rubbing(Composite, abstract=True):
     heat = Block(THERMAL, "What friction warms; then the curve's softening is a fade.", default=None)
     normal = Input("N", "Normal force.", default="normal_force")
     torque = Output("N*m", "Friction torque, positive when it opposes positive slip.")
+    friction = Output("N", "Friction of all faces, at the radius; times slip it is the loss (FrictionLoss).")
     slip = Output("m/s", "Slip speed at the radius.")
     temperature = Output("K", "Temperature of the faces, if they are warmed.")
 
@@ -99,7 +100,8 @@ def rubbing(p, scene, other):
         (surface, "contact.a"), ("rim_b.rack", "contact.b"), ("pressing.pressing", "contact.normal"),
         ("contact.friction", "lever.friction"),
     ]  # fmt: skip
-    shown = {"torque": "lever.torque", "slip": "contact.slip", "normal": "pressing.normal"}
+    shown = {name: f"contact.{name}" for name in ("friction", "slip")}
+    shown |= {"torque": "lever.torque", "normal": "pressing.normal"}
     if p.heat is not None:
         children["body"] = scene.make(FrictionHeat, **vars(p.heat))
         joins += [(f"contact.{name}", f"body.{name}") for name in ("friction", "slip")]

@@ -93,7 +93,7 @@ class HeatConvection(Component):
 
 
 class HeatActuator(Component):
-    """Gives its port the heat of a signal: the `power` of a Resistor, a loss computed by a formula."""
+    """Gives its port the heat of a signal: the `power` of a Resistor, the `loss` of a motor, a formula."""
 
     port = Thermal("what is warmed")
     heat = Input("W", "Heat.", signed=True)
@@ -107,9 +107,10 @@ class HeatActuator(Component):
 class FrictionLoss(Component):
     """Gives the heat of a contact to two bodies:  heat = friction slip,  `share` of it to b, the rest to a.
 
-    Join `friction` and `slip` with those of a Contact, or `torque` and `speed` with those of what turns. The shares of
-    two halves in contact are as their effusivities, sqrt(conductivity density specific heat). Source: Blok 1937;
-    Carslaw and Jaeger 1959, Conduction of Heat in Solids, section 2.9.
+    Join `friction` and `slip` with those of a Contact, a Clutch, a Brake or a Bearing, or `torque` and `speed` with the
+    torque and the slip of a ShaftFriction. The shares of two halves in contact are as their effusivities,
+    sqrt(conductivity density specific heat). Source: Blok 1937; Carslaw and Jaeger 1959, Conduction of Heat in Solids,
+    section 2.9.
     """
 
     a, b = Thermal("the surface"), Thermal("the body")
