@@ -10,9 +10,10 @@ class Leak(Component):
     b = Hydraulic("the other side")
     conductance = Parameter("m^3/s/Pa", "Flow per pressure drop.", least=0)
     flow = Output("m^3/s", "Flow from a to b.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
 
     def law(p, a, b):
         """All of flow times drop becomes heat."""
         drop = a.pressure - b.pressure
         flow = p.conductance * drop
-        return Law(a=flow, b=-flow, flow=flow, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, flow=flow, loss=flow * drop, dissipated=flow * drop)

@@ -37,6 +37,7 @@ class LiftValve(Component, abstract=True):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow from a to b.")
     opening = Output("1", "Share of the area that is open.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("closed", "partly", "open")
 
     @zone("closed", "partly", "open")
@@ -70,7 +71,8 @@ def through(p, a, b, lift, zone):
     drop = a.pressure - b.pressure
     opening = {"closed": 0, "open": 1}.get(zone, (lift - p.cracking) / p.range)
     flow = opening * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
-    return {"a": flow, "b": -flow, "flow": flow, "opening": opening, "dissipated": flow * drop}
+    told = {"flow": flow, "opening": opening, "loss": flow * drop}
+    return {"a": flow, "b": -flow, "dissipated": flow * drop, **told}
 
 
 class CheckValve(LiftValve):
@@ -131,6 +133,7 @@ class CounterbalanceValve(Composite):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow let down, from load to valve.")
     opening = Output("1", "Share of the area that is open.")
+    loss = Output("W", "What letting down makes heat, flow times drop; it may feed a HeatActuator.")
 
     def expand(p, scene):
         """A relief with a pilot, and a check valve beside it."""
@@ -142,4 +145,4 @@ class CounterbalanceValve(Composite):
         }  # fmt: skip
         joins = [("relief.a", "check.b"), ("relief.b", "check.a")]
         ports = {"load": "relief.a", "valve": "relief.b", "pilot": "relief.pilot"}
-        return Expansion(children, joins, ports, {"flow": "relief.flow", "opening": "relief.opening"})
+        return Expansion(children, joins, ports, {name: f"relief.{name}" for name in ("flow", "opening", "loss")})

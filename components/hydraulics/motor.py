@@ -25,6 +25,7 @@ class HydraulicMotor(Component):
     load_pressure = Output("Pa", "Pressure of a over b.")
     pressure_a = Output("Pa", "Pressure at a.")
     pressure_b = Output("Pa", "Pressure at b.")
+    loss = Output("W", "What leakage makes heat; it may feed a HeatActuator.")
     loaded = Output("N*m", "The torque without its sign, to within 1 bar.")
 
     def law(p, a, b, shaft):
@@ -39,4 +40,4 @@ class HydraulicMotor(Component):
             lost = across * difference + p.external_leakage * (a.pressure**2 + b.pressure**2)
         size = p.displacement * (sqrt(difference**2 + ROUNDED**2) - ROUNDED)
         return Law(a=into, b=-out, shaft=-torque, torque=torque, load_pressure=difference, pressure_a=a.pressure,
-                   pressure_b=b.pressure, loaded=size, dissipated=lost)  # fmt: skip
+                   pressure_b=b.pressure, loaded=size, loss=lost, dissipated=lost)  # fmt: skip

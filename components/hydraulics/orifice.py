@@ -19,10 +19,11 @@ class Orifice(Component):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow from a to b.")
     drop = Output("Pa", "Pressure of a over b.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
 
     def law(p, a, b):
         """What a takes in leaves at b."""
         drop = a.pressure - b.pressure
         conductance = p.fluid.conductance(p.discharge_coefficient, p.area)
         flow = throttled(conductance, drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, flow=flow, drop=drop, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, flow=flow, drop=drop, loss=flow * drop, dissipated=flow * drop)

@@ -20,6 +20,7 @@ class ReliefValve(Component):
     raised = State("Pa", "Pressure above the setting that the poppet has followed.", least=0.0)
     flow = Output("m^3/s", "Flow from a to b.")
     lift = Output("Pa", "Pressure above the setting that the poppet has followed.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("closed", "open")
 
     @derived
@@ -33,7 +34,8 @@ class ReliefValve(Component):
         drop = a.pressure - b.pressure
         wanted = drop - p.setting if zone == "open" else 0
         flow = p.slope * raised * drop / sqrt(drop**2 + p.critical**2)
-        return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, loss=flow * drop,
+                   dissipated=flow * drop)  # fmt: skip
 
     @guard("closed", to="open", unit="Pa")
     def opens(p, a, b):

@@ -36,6 +36,7 @@ class ServoValve(Composite):
     a, b = Hydraulic("line to the load"), Hydraulic("line from the load")
     command = Input("1", "Opening asked for, -1 to 1; positive joins supply with a.")
     opening = Output("1", "Opening.")
+    loss = Output("W", "What becomes heat in all lands; it may feed a HeatActuator.")
     valve_dynamics = Effect("The spool lags behind its command and hits stops.")
     leakage = Effect("Closed lands leak.")
     rated_flow = VALVE["rated_flow"]
@@ -52,4 +53,4 @@ class ServoValve(Composite):
         children = {"spool": spool_of(scene, p, p.valve_dynamics), "lands": lands_of(scene, p, p.leakage)}
         ports = {name: f"lands.{name}" for name in ("supply", "tank", "a", "b")}
         return Expansion(children, [("spool.opening", "lands.opening")], ports,
-                         {"command": "spool.command", "opening": "spool.opening"})  # fmt: skip
+                         {"command": "spool.command", "opening": "spool.opening", "loss": "lands.loss"})  # fmt: skip

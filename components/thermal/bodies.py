@@ -128,7 +128,10 @@ class FrictionLoss(Component):
 
 
 class OrificeLoss(Component):
-    """Gives the loss of a flow in a valve, a leak or a motor to a body as heat:  heat = flow drop."""
+    """Gives the loss of a flow to a body as heat:  heat = flow drop, such as those of an Orifice.
+
+    Valves, leaks and motors tell their `loss`, which a HeatActuator takes.
+    """
 
     port = Thermal("what is warmed")
     flow = Input("m^3/s", "Flow.", signed=True)
