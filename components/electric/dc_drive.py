@@ -17,6 +17,9 @@ class DcDrive(Component):
     in_range              u = command
     forward, backward     u = u+, u-
     upper, lower          u = +-most_voltage
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives. Limits: the amplifier has no losses and takes
+    back what the motor generates; there is no ripple of switching.
     """
 
     shaft = Rotational("the shaft")

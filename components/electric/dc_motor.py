@@ -30,6 +30,10 @@ class DcMotor(Winding):
     """L di/dt = u - R i - K w,  torque = K i.
 
     Without load it runs at u/K, stalled it gives K u/R; with an inertia J its speed has the time constant J R/K^2.
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives. A positive current from plus to minus turns
+    the shaft forward. Limits: constant field; no friction, no iron loss, no drop of brushes; the resistance does not
+    depend on temperature.
     """
 
     inductance = Parameter("V*s/A", "L of the winding.", default=1e-3, above=0)

@@ -12,6 +12,8 @@ class PmDrive(Composite):
 
     winding         on: resistance, inductance and the voltage of the supply; off: an ideal current loop
     current_loop    off: the current is the one asked for, i = torque/constant
+
+    Source: docs/physics.md, 5.6. Limits: those of `PmMotor`; the current is limited, however hot the winding is.
     """
 
     shaft = Rotational("the shaft")

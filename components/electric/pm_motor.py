@@ -63,6 +63,9 @@ class PmMotor(PmTorque):
     The controller cancels the pole of the winding, d(integral)/dt = (wanted - i)/lag. So the current follows with a
     lag, as without `winding`, while the voltage is within that of the supply. Beyond it the voltage stays at its
     limit.
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives (field-oriented control). Limits: no current in
+    the d axis, so no field weakening; no cogging, iron loss or friction.
     """
 
     winding = Effect("The voltage of the winding, which is limited.", "off", off=LaggingPm)

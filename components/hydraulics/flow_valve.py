@@ -17,7 +17,13 @@ from fairlead.component import (
 
 
 class VariableOrifice(Component):
-    """An orifice that a signal opens, from 0 shut to 1 wholly open; beyond that it stays shut, or open."""
+    """An orifice that a signal opens, from 0 shut to 1 wholly open; beyond that it stays shut, or open.
+
+    flow = opening C_d A sqrt(2/rho) drop/(drop^2 + p_cr^2)^(1/4),  positive from a to b.
+
+    Source: docs/physics.md, 5.1. Limits: C_d does not depend on the opening; put a SignalTable before it for the shape
+    of a notch.
+    """
 
     exempt = {"odd": "It opens one way."}
     a = Hydraulic("one side")
@@ -66,6 +72,8 @@ class FlowControlValve(Component):
     regulating    p_a - p_b > needs     flow = setting
 
     Limits: the compensator has no dynamics.
+
+    Source: a compensator that keeps the drop over an orifice of docs/physics.md, 5.1.
     """
 
     exempt = {"odd": "It regulates one way."}

@@ -4,7 +4,11 @@ from fairlead.component import Component, Hydraulic, Law, Output, Parameter
 
 
 class Leak(Component):
-    """Flow in proportion to the pressure drop:  flow = conductance * (a.pressure - b.pressure)."""
+    """Flow in proportion to the pressure drop:  flow = conductance * (a.pressure - b.pressure).
+
+    Source: laminar flow through a gap, Merritt 1967. Limits: the conductance does not depend on temperature or on the
+    pressure that widens a gap.
+    """
 
     a = Hydraulic("one side")
     b = Hydraulic("the other side")

@@ -76,7 +76,13 @@ def through(p, a, b, lift, zone):
 
 
 class CheckValve(LiftValve):
-    """Lets oil pass from a to b alone:  opens at p_a - p_b = cracking, wholly at cracking + range."""
+    """Lets oil pass from a to b alone:  opens at p_a - p_b = cracking, wholly at cracking + range.
+
+    As it opens, the flow is that of an Orifice of the open area, positive from a to b.
+
+    Source: docs/physics.md, 5.1 (orifice); Merritt 1967. Limits: the poppet has no mass and no hysteresis, and shut it
+    is tight.
+    """
 
     @shared
     def lift(p, a, b):
@@ -88,6 +94,9 @@ class PilotCheckValve(LiftValve):
     """A check valve that its pilot opens the other way too:  lift = p_a - p_b + ratio (p_pilot - p_a).
 
     So it holds a load at b, until the pilot has (p_b - p_a + cracking)/ratio more than a. The pilot takes no oil.
+
+    Source: the balance of forces on poppet and piston, with an orifice of docs/physics.md, 5.1. Limits: the poppet has
+    no mass and no hysteresis, and shut it is tight.
     """
 
     pilot = Hydraulic("what opens it")
@@ -120,6 +129,8 @@ class CounterbalanceValve(Composite):
     to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes and brakes
     it. Set it some 1.3 times the pressure of the largest load. Limits: the poppet has no dynamics; the spring's chamber
     is joined with `valve`, so pressure there acts against it.
+
+    Source: the balance of forces on the poppet of an overcentre valve, with an orifice of docs/physics.md, 5.1.
     """
 
     load = Hydraulic("side of the load")

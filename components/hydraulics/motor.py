@@ -11,6 +11,9 @@ class HydraulicMotor(Component):
     Leakage is laminar: across, C_i (p_a - p_b), and out of either side into the housing, C_e p, where it is lost.
     Turned from outside it is a pump. Volumes, inertia and friction are components of their own; `loaded` is the
     torque of the oil without its sign, for friction that grows with it.
+
+    Source: docs/physics.md, 5.3; Merritt 1967. Limits: no ripple from the pistons; the displacement is constant (a
+    VariablePump has one that moves).
     """
 
     a = Hydraulic("high pressure when it drives forward")

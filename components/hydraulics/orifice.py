@@ -9,6 +9,9 @@ class Orifice(Component):
     """Turbulent flow through an opening, laminar near zero:  flow = C_d A sqrt(2/rho) drop/(drop^2 + p_cr^2)^(1/4).
 
     The pressure is not recovered: flow * drop becomes heat.
+
+    flow is positive from a to b. Source: docs/physics.md, 5.1; Merritt 1967. Limits: C_d is constant, and the oil has
+    no inertia there.
     """
 
     a = Hydraulic("one side")

@@ -10,6 +10,9 @@ class ReliefValve(Component):
 
     At a steady flow the pressure is  setting + Q/slope, or up to 0.13 % of Q/slope more. It never drives a flow: Q goes
     to zero with p_a - p_b, below a twentieth of the setting (below 1 bar if that is less).
+
+    Source: docs/physics.md, 5.5. Limits: the poppet has a lag and no mass, so the valve does not chatter; its flow
+    grows in proportion to the lift.
     """
 
     a = Hydraulic("the line it protects")

@@ -30,7 +30,13 @@ def lands_of(scene, valve, leakage):
 
 
 class ServoValve(Composite):
-    """Spool and lands: supply, tank, and the lines a and b to what is driven. See `Spool` and `ValveLands`."""
+    """Spool and lands: supply, tank, and the lines a and b to what is driven. See `Spool` and `ValveLands`.
+
+    supply -> a and b -> tank while the opening is positive:  flow = |opening| rated_flow sqrt(drop/rated_drop).
+
+    Source: docs/physics.md, 5.2; Merritt 1967. Limits: the command moves the spool, with no torque motor and no forces
+    of the flow on it.
+    """
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")
     a, b = Hydraulic("line to the load"), Hydraulic("line from the load")

@@ -35,6 +35,9 @@ class ValveLands(Component):
 
     Data sheets give the flow at a drop per land (often 35 bar); no area and no density is needed. `overlap` is
     the share of the stroke without flow. Leakage past closed lands is laminar.
+
+    Source: docs/physics.md, 5.2; Merritt 1967. Limits: all four lands alike; the density of the oil is that of the data
+    sheet.
     """
 
     supply = Hydraulic("pressure line")

@@ -30,6 +30,8 @@ class Gearbox(Composite):
     The loss is dry friction on shaft b that follows the torque carried, (1 - efficiency)|torque_a/ratio|: so it
     sticks, and while b drives a the share that arrives is 1/(2 - efficiency). With `backlash` the teeth have a gap
     and give way. Without both it is a `Gear`: a rigid ratio that costs nothing.
+
+    Source: docs/physics.md, 5.6. Limits: one efficiency at every speed and torque; see LossyGear for both ways.
     """
 
     a = Rotational("driving shaft")

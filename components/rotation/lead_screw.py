@@ -142,6 +142,8 @@ class Worm(Screw):
     Limits: those of LeadScrew. The load of a worm that locks itself does not follow it down, if the inertia at the
     wheel is too large for that at the worm (m' is moment/wheel_radius^2). Give the load a TorsionSpring, and the wheel
     an Inertia of its own.
+
+    Source: Shigley's Mechanical Engineering Design, worm gears.
     """
 
     worm = Rotational("the worm")

@@ -17,6 +17,8 @@ class Integrator(Component):
     While `reset` is above 1/2 nothing is integrated: the signal returns to `initial`, and what is left of the way falls
     as exp(-t/return_time). It begins there anew when `reset` goes off. Limits: the impulse of an impact may carry it
     beyond `low` or `high`, and then it stays there; a reset that is on for less than ten return times is not finished.
+
+    Source: Integrator and LimIntegrator of the Modelica Standard Library, whose reset is at once.
     """
 
     exempt = {"zones_reached returning": "Only what is connected to `reset` leads there."}
@@ -98,7 +100,11 @@ class Integrator(Component):
 
 
 class FilteredDerivative(Component):
-    """signal = (value - s)/lag,  ds/dt = the same:  the rate of a signal, filtered with a lag of first order."""
+    """signal = (value - s)/lag,  ds/dt = the same:  the rate of a signal, filtered with a lag of first order.
+
+    Source: Derivative of the Modelica Standard Library. Limits: what is faster than the lag comes out smaller; a jump
+    gives a peak of jump/lag.
+    """
 
     value = Input("1", "What is differentiated.", signed=True)
     lag = Parameter("s", "Time constant of the filter.", above=0)
@@ -113,7 +119,11 @@ class FilteredDerivative(Component):
 
 
 class SecondOrder(Component):
-    """signal'' = omega^2 (gain value - signal) - 2 damping omega signal':  an oscillation, or a filter."""
+    """signal'' = omega^2 (gain value - signal) - 2 damping omega signal':  an oscillation, or a filter.
+
+    Source: SecondOrder of the Modelica Standard Library. Limits: from rest at `initial`; complex filters are a
+    TransferFunction or a StateSpace.
+    """
 
     value = Input("1", "What comes in.", signed=True)
     gain = Parameter("1", "Steady signal per value, in SI of both.", default=1.0)
