@@ -60,7 +60,7 @@ class SignalMark(Component):
     What is made of the value may be narrow there, as exp(-value^2) is: a step that begins and ends beside it sees
     nothing of it. Or it is one of several conditions, and for a short time all of them hold.
 
-    Source: docs/integrator.md, Narrow places. Limits: it marks zero only; subtract a level before it.
+    Source: docs/integrator.md, Narrow features. Limits: it marks zero only; subtract a level before it.
     """
 
     value = Input("1", "What comes in.", signed=True)

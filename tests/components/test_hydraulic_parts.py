@@ -162,3 +162,14 @@ def test_a_part_tells_as_loss_what_no_work_is_made_of(simulate, kind, more, join
     result = simulate(LOSSES.format(kind=kind, more=more, joins=joins))
     assert result["part.loss"][-1] == pytest.approx(loss, rel=1e-4)
     assert result["body.temperature"][-1] - result["body.temperature"][0] == pytest.approx(2 * loss / 500, rel=1e-3)
+
+
+@pytest.mark.parametrize(("side", "way"), [("cap", 1), ("rod", -1)])
+def test_a_rigid_chamber_moves_as_fast_as_oil_comes_through_its_orifice(side, way):
+    """m dv/dt = A (p - drop), drop = (A v/K)^2 far above p_cr: v = v_end tanh(t/tau), v_end = K sqrt(p)/A."""
+    result = run("rigid_chamber", **{"ram.side": side, "orifice.critical_pressure": "1 Pa"})
+    k, area, pressure = 0.62 * 2e-6 * np.sqrt(2 / 870), 10e-4, 5e6
+    end = k * np.sqrt(pressure) / area
+    tau = 100 * end / (area * pressure)
+    assert result["load.v"] == pytest.approx(way * end * np.tanh(result.t / tau), abs=2e-4 * end)
+    assert result["ram.pressure"][-1] == pytest.approx(0, abs=pressure * 1e-3)
