@@ -65,7 +65,8 @@ class Gearbox(Composite):
         joins, shown = [("gear.b", "teeth.a")], {"torque": "teeth.torque"}
         if p.gear_friction == "on":
             children["loss"] = scene.make(LoadLoss, efficiency=p.efficiency, round_off=p.round_off)
-            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if p.efficiency < 1 else 0.0)
+            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if p.efficiency < 1 else 0.0,
+                                             normal_force=p.round_off)  # fmt: skip
             joins += [("teeth.torque", "loss.carried"), ("loss.loss", "rubbing.normal"), ("rubbing.shaft", "teeth.b")]
             shown["loss"] = "rubbing.torque"
         return Expansion(children, joins, {"a": "gear.a", "b": "teeth.b"}, shown)

@@ -1,4 +1,4 @@
-"""Every bundled part tells its law, its source and its limits, and is played in a small netlist that somebody compares."""
+"""Every bundled part tells its law, its source and its limits, and its small netlist what it shows."""
 
 import inspect
 import pathlib
