@@ -18,7 +18,7 @@ project = "fairlead"
 author = "The fairlead developers"
 extensions = ["myst_nb", "sphinx.ext.autodoc"]
 exclude_patterns = [
-    "_site", "generated/examples/.kept", "jupyter_execute", "examples", "generate", "**/.ipynb_checkpoints",
+    "_site", "generated/examples/.kept", "jupyter_execute", "generate", "**/.ipynb_checkpoints",
 ]  # fmt: skip
 html_theme = "furo"
 html_title = "fairlead"

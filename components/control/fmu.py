@@ -15,6 +15,9 @@ class Fmu(Composite):
 
     Its signals are the inputs and outputs of the FMU, in SI, of arrays each element. Events and clocks of FMI 3 are
     handled inside a step. Foreign code runs only where it is allowed (`--allow-fmu`), in a process of its own.
+
+    signals(t) = outputs of the FMU at the last sample.  Source: the standard FMI (docs/howto/foreign_fmu.md). Limits:
+    what happens inside a period is not seen by the rest of the scene, nor what the rest does by the FMU.
     """
 
     file = File("The FMU, relative to the netlist and in its folder or below.", ending=".fmu")

@@ -39,7 +39,12 @@ def judged(p, broken, broken_for, trips):
 
 
 class OverTensionTrip(Trip):
-    """Stops when the tension has been above a limit for longer than `patience`."""
+    """Stops when the tension has been above a limit for longer than `patience`.
+
+    reference = target,  and 0 for the rest of the run once  tension > limit  has lasted for `patience`.
+
+    Source: an interlock as a controller program has it. Limits: sampled; what is shorter than a `period` is not seen.
+    """
 
     tension = Input("N", "Tension watched, the largest of the line for instance.", signed=True)
     limit = Parameter("N", "Tension above which it trips.", above=0)
@@ -51,7 +56,12 @@ class OverTensionTrip(Trip):
 
 
 class RuckTrip(Trip):
-    """Stops when the hose has been compressed by more than its ruck force for longer than `patience`."""
+    """Stops when the hose has been compressed by more than its ruck force for longer than `patience`.
+
+    reference = target,  and 0 for the rest of the run once  -tension > ruck_force  has lasted for `patience`.
+
+    Source: an interlock as a controller program has it. Limits: sampled; what is shorter than a `period` is not seen.
+    """
 
     tension = Input("N", "Tension of the hose, negative when compressed.", signed=True)
     ruck_force = Parameter("N", "Compression that rucks the hose.", above=0)
@@ -66,7 +76,10 @@ class RuckTrip(Trip):
 class ZeroTensionHold(Component):
     """Stops paying out while the line is slack: below `low` the reference cannot be positive.
 
-    It passes again when the tension is back above `release`. Hauling in is never held up. Sampled.
+    It passes again when the tension is back above `release`. Hauling in is never held up. Sampled:
+    reference = min(target, 0) while it holds, else reference = target.
+
+    Source: an interlock as a controller program has it. Limits: what is shorter than a `period` is not seen.
     """
 
     passes = "target"

@@ -128,6 +128,9 @@ class PiController(Pi):
     Every `period` T_s the command is computed and then held; I is that before the sample. `delay: sample` takes the
     value measured one sample earlier, as a processor does that needs its period to compute. Steady with a plant
     K/(T s + 1) while the eigenvalues of the map of plant, I and delayed value lie within the unit circle.
+
+    Source: docs/physics.md, 5.7; Astrom and Hagglund 2006, Advanced PID Control (anti-windup by back-calculation).
+    Limits: the integral is lagged by a sample, and numbers are not rounded as those of a processor are.
     """
 
     sampling = Effect("The controller works in samples; off: continuously.", off=ContinuousPi)

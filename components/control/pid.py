@@ -138,6 +138,9 @@ class Pid(PidLaw):
 
     I += T_s (K_p/T_i e + (u - wanted)/T_t),  D = -K_p T_d (y - s)/(T_f + T_s),  s += T_s/(T_f + T_s) (y - s).
     `effects: {sampling: off}` makes it ideal: continuous, at once.
+
+    Source: docs/physics.md, 5.7; Astrom and Hagglund 2006, Advanced PID Control (filtered derivative,
+    back-calculation). Limits: numbers are not rounded as those of a processor are, and a sample takes no time.
     """
 
     sampling = Effect("The controller works in samples; off: continuously and at once.", off=IdealPid)

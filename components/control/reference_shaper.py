@@ -8,6 +8,9 @@ class ReferenceShaper(Component):
 
     A speed as the target gives a trapezoid of speed with limited acceleration, or one with rounded corners. With
     jerk the rate is at most sqrt(2 jerk |what is left|), so that it has come down when the target is reached.
+
+    Source: profiles of limited acceleration and jerk, as those of drives have them. Limits: sampled, so with jerk the
+    target may be passed by up to most times period.
     """
 
     passes, at_most = "target", "most"  # steadily the target, on the way at most this rate

@@ -4,7 +4,10 @@ from fairlead.component import Component, Input, Law, Output, Parameter
 
 
 class SignalGain(Component):
-    """signal = gain * value + offset."""
+    """signal = gain * value + offset.
+
+    Source: Gain of the Modelica Standard Library. Limits: none; a Limiter bounds a signal.
+    """
 
     value = Input("1", "What comes in.", signed=True)
     gain = Parameter("1", "Factor, in SI of both.", default=1.0)

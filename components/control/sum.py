@@ -7,6 +7,8 @@ class Sum(Component):
     """Up to four signals added, each times its gain; an input that nothing is connected to counts 0.
 
     signal = gain_a a + gain_b b + gain_c c + gain_d d + offset. A difference is `gain_b: -1`.
+
+    Source: Add of the Modelica Standard Library. Limits: four inputs; take two of them for more.
     """
 
     a = Input("1", "First summand.", 0.0, signed=True)

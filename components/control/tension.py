@@ -8,6 +8,8 @@ class TensionTrim(Component):
 
     e = tension - wanted: a line that is too tight makes the winch pay out faster (pay-out is positive). Sampled; the
     tension is that of one sample ago, and the integral stops gathering beyond the limit (back-calculation).
+
+    Source: docs/physics.md, 5.7. Limits: the tension is not filtered; put a SignalLag before it.
     """
 
     keeps = "wanted"
@@ -42,6 +44,8 @@ class TensionTorque(Component):
     """Torque mode: the shaft holds the line back with wanted * radius, helped over its own friction.
 
     torque = -wanted * radius + friction * tanh(speed/slow),  pay-out positive; sampled, held in between.
+
+    Source: docs/physics.md, 4.4 and 5.7. Limits: the inertia of the drum is not compensated.
     """
 
     keeps = "wanted"

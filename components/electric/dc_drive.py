@@ -17,6 +17,9 @@ class DcDrive(Component):
     in_range              u = command
     forward, backward     u = u+, u-
     upper, lower          u = +-most_voltage
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives. Limits: the amplifier has no losses and takes
+    back what the motor generates; there is no ripple of switching.
     """
 
     shaft = Rotational("the shaft")
@@ -29,6 +32,7 @@ class DcDrive(Component):
     flowing = State("A", "Current.")
     current, voltage = Output("A", "Current."), Output("V", "Voltage at the motor.")
     torque = Output("N*m", "Torque on the shaft.")
+    loss = Output("W", "Heat of the winding, R i^2; it may feed a HeatActuator.")
     zones = Zones(
         "in_range", "upper", "lower", "forward", "backward",
         forward=["upper", "forward"], backward=["lower", "backward"],
@@ -42,10 +46,10 @@ class DcDrive(Component):
             voltage = limiting(p, shaft, flowing, p.most_current if zone == "forward" else -p.most_current)
         else:
             voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, command)
-        torque = p.constant * flowing
+        torque, loss = p.constant * flowing, p.resistance * flowing**2
         return Law(shaft=-torque, flowing=(voltage - p.resistance * flowing - p.constant * shaft.speed) / p.inductance,
-                   current=flowing, voltage=voltage, torque=torque, stored=p.inductance * flowing**2 / 2,
-                   dissipated=p.resistance * flowing**2, supplied=voltage * flowing)  # fmt: skip
+                   current=flowing, voltage=voltage, torque=torque, loss=loss,
+                   stored=p.inductance * flowing**2 / 2, dissipated=loss, supplied=voltage * flowing)  # fmt: skip
 
     @guard("in_range", to="forward", unit="V", mirrored="current_falls")
     def current_rises(p, shaft, command, flowing, direction):

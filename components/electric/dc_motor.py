@@ -12,6 +12,7 @@ class Winding(Component, abstract=True):
     constant = Parameter("N*m/A", "K_t = K_e, torque per current and voltage per speed.", above=0)
     current = Output("A", "Current from plus to minus.")
     torque = Output("N*m", "Torque on the shaft.")
+    loss = Output("W", "Heat of the winding, R i^2; it may feed a HeatActuator.")
 
 
 class ResistiveMotor(Winding):
@@ -20,15 +21,19 @@ class ResistiveMotor(Winding):
     def law(p, plus, minus, shaft):
         """The current follows at once."""
         current = (plus.voltage - minus.voltage - p.constant * shaft.speed) / p.resistance
-        torque = p.constant * current
-        return Law(plus=current, minus=-current, shaft=-torque, current=current, torque=torque,
-                   dissipated=p.resistance * current**2)  # fmt: skip
+        torque, loss = p.constant * current, p.resistance * current**2
+        return Law(plus=current, minus=-current, shaft=-torque, current=current, torque=torque, loss=loss,
+                   dissipated=loss)  # fmt: skip
 
 
 class DcMotor(Winding):
     """L di/dt = u - R i - K w,  torque = K i.
 
     Without load it runs at u/K, stalled it gives K u/R; with an inertia J its speed has the time constant J R/K^2.
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives. A positive current from plus to minus turns
+    the shaft forward. Limits: constant field; no friction, no iron loss, no drop of brushes; the resistance does not
+    depend on temperature.
     """
 
     inductance = Parameter("V*s/A", "L of the winding.", default=1e-3, above=0)
@@ -39,6 +44,6 @@ class DcMotor(Winding):
         """The field of the winding stores energy."""
         voltage = plus.voltage - minus.voltage
         rate = (voltage - p.resistance * flowing - p.constant * shaft.speed) / p.inductance
-        torque = p.constant * flowing
-        return Law(plus=flowing, minus=-flowing, shaft=-torque, flowing=rate, current=flowing, torque=torque,
-                   stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2)  # fmt: skip
+        torque, loss = p.constant * flowing, p.resistance * flowing**2
+        return Law(plus=flowing, minus=-flowing, shaft=-torque, flowing=rate, current=flowing, torque=torque, loss=loss,
+                   stored=p.inductance * flowing**2 / 2, dissipated=loss)  # fmt: skip

@@ -4,7 +4,10 @@ from fairlead.component import Component, Electrical, Law
 
 
 class Earth(Component):
-    """Zero volts, at any current."""
+    """Zero volts, at any current.
+
+    terminal.voltage = 0.  Source: Kirchhoff's laws need one. Limits: it has no resistance.
+    """
 
     terminal = Electrical("the terminal")
 

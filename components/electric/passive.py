@@ -11,7 +11,11 @@ class TwoTerminals(Component, abstract=True):
 
 
 class Resistor(TwoTerminals):
-    """current = u/resistance,  u the voltage of plus over minus."""
+    """current = u/resistance,  u the voltage of plus over minus.
+
+    The current flows from plus to minus, and `power` becomes heat. Source: Ohm's law. Limits: the resistance does not
+    depend on temperature.
+    """
 
     resistance = Parameter("ohm", "Resistance.", above=0)
     power = Output("W", "Power that becomes heat.")
@@ -24,7 +28,10 @@ class Resistor(TwoTerminals):
 
 
 class Inductor(TwoTerminals):
-    """inductance di/dt = u - resistance i.  A coil whose current is `initial` at the start."""
+    """inductance di/dt = u - resistance i.  A coil whose current is `initial` at the start.
+
+    The current flows from plus to minus. Source: Faraday's law. Limits: the core does not saturate and has no losses.
+    """
 
     inductance = Parameter("V*s/A", "Inductance.", above=0)
     resistance = Parameter("ohm", "Resistance of the wire.", default=0.0, least=0)
@@ -40,7 +47,11 @@ class Inductor(TwoTerminals):
 
 
 class Capacitor(TwoTerminals):
-    """capacity dw/dt = i,  u = w + inner i:  a capacitor with the resistance of its leads, charged to `initial`."""
+    """capacity dw/dt = i,  u = w + inner i:  a capacitor with the resistance of its leads, charged to `initial`.
+
+    The current i flows from plus to minus. Source: the law of a capacitor. Limits: constant capacity, no leakage; put a
+    Resistor beside it.
+    """
 
     capacity = Parameter("A*s/V", "Capacity.", above=0)
     inner = Parameter("ohm", "Resistance of its leads.", default=1e-3, above=0)

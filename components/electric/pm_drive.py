@@ -12,6 +12,8 @@ class PmDrive(Composite):
 
     winding         on: resistance, inductance and the voltage of the supply; off: an ideal current loop
     current_loop    off: the current is the one asked for, i = torque/constant
+
+    Source: docs/physics.md, 5.6. Limits: those of `PmMotor`; the current is limited, however hot the winding is.
     """
 
     shaft = Rotational("the shaft")
@@ -28,6 +30,7 @@ class PmDrive(Composite):
     current = Output("A", "Current.")
     torque = Output("N*m", "Torque on the shaft.")
     speed = Output("rad/s", "Speed of the shaft.")
+    loss = Output("W", "Heat of the winding; it may feed a HeatActuator.")
 
     def expand(p, scene):
         """Limit, motor, rotor."""
@@ -38,6 +41,6 @@ class PmDrive(Composite):
             "rotor": scene.make(Inertia, moment=p.inertia),
         }
         joins = [("limit.current", "motor.wanted"), ("motor.shaft", "rotor.shaft")]
-        told = {"current": "motor.current", "torque": "motor.torque", "speed": "rotor.speed"}
+        told = {**{name: f"motor.{name}" for name in ("current", "torque", "loss")}, "speed": "rotor.speed"}
         shown = {"command": "limit.torque", **told}
         return Expansion(children, joins, {"shaft": "rotor.shaft"}, shown)

@@ -29,6 +29,7 @@ class PmTorque(Component, abstract=True):
     most_current = Parameter("A", "What its drive limits the current to; for what `check` says of its speed.",
                              default=None, above=0, physics=False)  # fmt: skip
     current, torque = Output("A", "Current."), Output("N*m", "Torque on the shaft.")
+    loss = Output("W", "Heat of the winding, R i^2; it may feed a HeatActuator.")
     integral = Output("A", "Integral of the current controller, which is the current as long as nothing limits it.")
 
     def fastest(p):
@@ -62,6 +63,9 @@ class PmMotor(PmTorque):
     The controller cancels the pole of the winding, d(integral)/dt = (wanted - i)/lag. So the current follows with a
     lag, as without `winding`, while the voltage is within that of the supply. Beyond it the voltage stays at its
     limit.
+
+    Source: docs/physics.md, 5.6; Leonhard, Control of Electrical Drives (field-oriented control). Limits: no current in
+    the d axis, so no field weakening; no cogging, iron loss or friction.
     """
 
     winding = Effect("The voltage of the winding, which is limited.", "off", off=LaggingPm)
@@ -81,9 +85,9 @@ class PmMotor(PmTorque):
         voltage = {"upper": p.most_voltage, "lower": -p.most_voltage}.get(zone, free)
         rate = (voltage - p.resistance * flowing - back) / p.inductance
         catching = error / p.lag if zone == "in_range" else (flowing - summed) / p.lag
-        torque = p.constant * flowing
+        torque, loss = p.constant * flowing, p.resistance * flowing**2
         return Law(shaft=-torque, flowing=rate, summed=catching, integral=summed, current=flowing, torque=torque,
-                   stored=p.inductance * flowing**2 / 2, dissipated=p.resistance * flowing**2,
+                   loss=loss, stored=p.inductance * flowing**2 / 2, dissipated=loss,
                    supplied=voltage * flowing)  # fmt: skip
 
     @guard("*", to="upper", unit="V", mirrored="runs_out_backward")
@@ -110,7 +114,7 @@ def stall(p):
 def pm_law(p, shaft, current, **own):
     """Law of a motor at a current."""
     torque, lost = p.constant * current, p.resistance * current**2
-    return Law(shaft=-torque, current=current, torque=torque, integral=current, dissipated=lost,
+    return Law(shaft=-torque, current=current, torque=torque, loss=lost, integral=current, dissipated=lost,
                supplied=torque * shaft.speed + lost, **own)  # fmt: skip
 
 

@@ -8,6 +8,8 @@ class PositionServo(Component):
 
     U is the supply. With `on` below one the torque is that share of it; at zero the motor's terminals are open.
     Limits: the current follows at once, and the controller is not sampled.
+
+    Source: docs/physics.md, 5.6 (motor); a proportional law with a limited duty, as hobby and robot servos have it.
     """
 
     asked_with = {"on": 1.0, "goal": 0.0, "gain": 50.0}  # a motor that is on in part or less than off gives no power

@@ -9,6 +9,9 @@ class ElectricSwitch(TwoTerminals):
     """A switch (contact or transistor) that a signal closes.
 
     current = u/closed_resistance while `control` is above 1/2, else u/open_resistance.
+
+    u is the voltage of plus over minus. Source: a switch of two resistances, as IdealClosingSwitch of the Modelica
+    Standard Library. Limits: no bounce, no arc, no time to switch.
     """
 
     exempt = {"odd": "Reversed, the control opens what it closed."}
@@ -40,6 +43,9 @@ class Diode(TwoTerminals):
 
     blocking      u < threshold     current = u/blocking_resistance
     conducting    u > threshold     the same, and (u - threshold)/resistance beside
+
+    u and the current are positive from plus to minus. Source: IdealDiode of the Modelica Standard Library. Limits:
+    straight lines in place of the exponential; no charge is stored.
     """
 
     exempt = {"odd": "It passes one way."}

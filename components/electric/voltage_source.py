@@ -12,7 +12,10 @@ class Sourced(Component, abstract=True):
 
 
 class VoltageSource(Sourced):
-    """Keeps a voltage between its terminals, less what its resistance takes:  current = (U - u)/inner."""
+    """Keeps a voltage between its terminals, less what its resistance takes:  current = (U - u)/inner.
+
+    The current given at plus is positive. Source: a Thevenin source. Limits: it gives any current, and takes it back.
+    """
 
     voltage = Waveform("V", "Voltage in time, without load.")
 
@@ -22,7 +25,12 @@ class VoltageSource(Sourced):
 
 
 class VoltageActuator(Sourced):
-    """An amplifier: gives the voltage of a signal, less the drop over its resistance."""
+    """An amplifier: gives the voltage of a signal, less the drop over its resistance.
+
+    current = (voltage - u)/inner,  u of plus over minus; the current given at plus is positive.
+
+    Source: a Thevenin source. Limits: no limit of current or voltage; a DcDrive has them.
+    """
 
     voltage = Input("V", "Voltage of plus over minus without load.", signed=True)
 

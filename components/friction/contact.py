@@ -26,6 +26,9 @@ class Contact(Family, Component, abstract=True):
 
     Slip is v = b.v - a.v; the friction T opposes it: force -T on b, +T on a. `method` chooses how
     sticking is treated, `curve` how sliding friction depends on speed, load and temperature.
+
+    Source: docs/physics.md, 1 and 2, and the page of each treatment (docs/treatments). Limits: slip along one line, and
+    no wear.
     """
 
     key = "method"

@@ -28,6 +28,9 @@ class FrictionHeat(Component):
 
     Connect a contact's `friction` and `slip` to it and its `temperature` back to the contact, whose curve has a
     `softening`. The heat is that of all friction work; what bent bristles store in between counts as well.
+
+    Source: docs/physics.md, 1.2. Limits: one temperature for the whole body; heat that goes on from there needs thermal
+    ports, see FrictionLoss.
     """
 
     capacity, loss, share, ambient = THERMAL.values()
@@ -44,7 +47,10 @@ class FrictionHeat(Component):
 
 
 class TemperatureSource(Component):
-    """A given temperature that may vary with time, as a signal."""
+    """A given temperature that may vary with time, as a signal.
+
+    temperature = profile(t).  Source: as given. Limits: nothing cools or warms it; a TemperatureSensor reads a body.
+    """
 
     profile = Waveform("K", "Temperature in time.")
     temperature = Output("K", "The temperature.")

@@ -34,6 +34,8 @@ class Accumulator(Component):
 
     Limits: if the accumulator is empty and its port is joined to a shut valve only, no law determines the pressure
     there. Put a Volume at the port.
+
+    Source: docs/physics.md, 5.5; Merritt 1967.
     """
 
     port = Hydraulic("the neck")

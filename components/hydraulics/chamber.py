@@ -140,7 +140,13 @@ class Chamber(PistonChamber):
 
 
 class RigidChamber(Component):
-    """A chamber whose oil is not compressed: what flows in moves the piston, and the pressure is that of the port."""
+    """A chamber whose oil is not compressed: what flows in moves the piston, and the pressure is that of the port.
+
+    flow = area (rod.v - body.v),  force = area pressure, which pushes the rod out; `side: rod` pulls it in.
+
+    Source: Merritt 1967; docs/physics.md, 5.4 without compressibility. Limits: no leakage past the piston, no friction
+    and no stops.
+    """
 
     port = Hydraulic("the bore")
     body = Translational("the barrel")

@@ -4,7 +4,11 @@ from fairlead.component import Component, Hydraulic, Input, Law, Output, Wavefor
 
 
 class FlowSource(Component):
-    """Moves a given flow from its inlet to its outlet, at any pressure."""
+    """Moves a given flow from its inlet to its outlet, at any pressure.
+
+    outlet.flow = -flow, as the flow goes out there; power = flow (p_outlet - p_inlet).  Source: definition. Limits: any
+    pressure is overcome, and no loss is counted.
+    """
 
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("where it goes")
@@ -20,7 +24,11 @@ class FlowSource(Component):
 
 
 class FlowActuator(Component):
-    """An ideal pump of variable displacement: the flow of a signal, from its inlet to its outlet."""
+    """An ideal pump of variable displacement: the flow of a signal, from its inlet to its outlet.
+
+    outlet.flow = -flow, as the flow goes out there; power = flow (p_outlet - p_inlet).  Source: definition. Limits: any
+    pressure is overcome, and no loss is counted.
+    """
 
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("where it goes")

@@ -17,7 +17,13 @@ from fairlead.component import (
 
 
 class VariableOrifice(Component):
-    """An orifice that a signal opens, from 0 shut to 1 wholly open; beyond that it stays shut, or open."""
+    """An orifice that a signal opens, from 0 shut to 1 wholly open; beyond that it stays shut, or open.
+
+    flow = opening C_d A sqrt(2/rho) drop/(drop^2 + p_cr^2)^(1/4),  positive from a to b.
+
+    Source: docs/physics.md, 5.1. Limits: C_d does not depend on the opening; put a SignalTable before it for the shape
+    of a notch.
+    """
 
     exempt = {"odd": "It opens one way."}
     a = Hydraulic("one side")
@@ -28,6 +34,7 @@ class VariableOrifice(Component):
     critical_pressure = Parameter("Pa", "p_cr, drop below which the flow is laminar.", default=1e5, above=0)
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow from a to b.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("metering", "shut", "open")
 
     @zone("metering", "shut", "open")
@@ -35,7 +42,7 @@ class VariableOrifice(Component):
         """An orifice as far as it is open."""
         drop, share = a.pressure - b.pressure, {"shut": 0, "open": 1}.get(zone, opening)
         flow = share * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, flow=flow, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, flow=flow, loss=flow * drop, dissipated=flow * drop)
 
     @guard("*", to="shut", unit="1")
     def shuts(p, opening):
@@ -65,6 +72,8 @@ class FlowControlValve(Component):
     regulating    p_a - p_b > needs     flow = setting
 
     Limits: the compensator has no dynamics.
+
+    Source: a compensator that keeps the drop over an orifice of docs/physics.md, 5.1.
     """
 
     exempt = {"odd": "It regulates one way."}
@@ -74,6 +83,7 @@ class FlowControlValve(Component):
     needs = Parameter("Pa", "Drop that the compensator needs.", default=5e5, above=0)
     critical_pressure = Parameter("Pa", "p_cr, drop below which the flow is laminar.", default=1e4, above=0)
     flow = Output("m^3/s", "Flow from a to b.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("starved", "regulating")
 
     @zone("starved")
@@ -81,12 +91,13 @@ class FlowControlValve(Component):
         """Not enough pressure to regulate."""
         drop = a.pressure - b.pressure
         flow = throttled(p.setting / throttled(1.0, p.needs, p.critical_pressure), drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, flow=flow, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, flow=flow, loss=flow * drop, dissipated=flow * drop)
 
     @zone("regulating")
     def kept(p, a, b):
         """The compensator takes what drop is too much."""
-        return Law(a=p.setting, b=-p.setting, flow=p.setting, dissipated=p.setting * (a.pressure - b.pressure))
+        loss = p.setting * (a.pressure - b.pressure)
+        return Law(a=p.setting, b=-p.setting, flow=p.setting, loss=loss, dissipated=loss)
 
     @guard("starved", to="regulating", unit="Pa")
     def regulates(p, a, b):

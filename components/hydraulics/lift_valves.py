@@ -37,6 +37,7 @@ class LiftValve(Component, abstract=True):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow from a to b.")
     opening = Output("1", "Share of the area that is open.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("closed", "partly", "open")
 
     @zone("closed", "partly", "open")
@@ -70,11 +71,18 @@ def through(p, a, b, lift, zone):
     drop = a.pressure - b.pressure
     opening = {"closed": 0, "open": 1}.get(zone, (lift - p.cracking) / p.range)
     flow = opening * throttled(p.fluid.conductance(p.discharge_coefficient, p.area), drop, p.critical_pressure)
-    return {"a": flow, "b": -flow, "flow": flow, "opening": opening, "dissipated": flow * drop}
+    told = {"flow": flow, "opening": opening, "loss": flow * drop}
+    return {"a": flow, "b": -flow, "dissipated": flow * drop, **told}
 
 
 class CheckValve(LiftValve):
-    """Lets oil pass from a to b alone:  opens at p_a - p_b = cracking, wholly at cracking + range."""
+    """Lets oil pass from a to b alone:  opens at p_a - p_b = cracking, wholly at cracking + range.
+
+    As it opens, the flow is that of an Orifice of the open area, positive from a to b.
+
+    Source: docs/physics.md, 5.1 (orifice); Merritt 1967. Limits: the poppet has no mass and no hysteresis, and shut it
+    is tight.
+    """
 
     @shared
     def lift(p, a, b):
@@ -86,6 +94,9 @@ class PilotCheckValve(LiftValve):
     """A check valve that its pilot opens the other way too:  lift = p_a - p_b + ratio (p_pilot - p_a).
 
     So it holds a load at b, until the pilot has (p_b - p_a + cracking)/ratio more than a. The pilot takes no oil.
+
+    Source: the balance of forces on poppet and piston, with an orifice of docs/physics.md, 5.1. Limits: the poppet has
+    no mass and no hysteresis, and shut it is tight.
     """
 
     pilot = Hydraulic("what opens it")
@@ -118,6 +129,8 @@ class CounterbalanceValve(Composite):
     to `load`. A load that would run ahead of the pump takes the pressure from the pilot, so the valve closes and brakes
     it. Set it some 1.3 times the pressure of the largest load. Limits: the poppet has no dynamics; the spring's chamber
     is joined with `valve`, so pressure there acts against it.
+
+    Source: the balance of forces on the poppet of an overcentre valve, with an orifice of docs/physics.md, 5.1.
     """
 
     load = Hydraulic("side of the load")
@@ -131,6 +144,7 @@ class CounterbalanceValve(Composite):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow let down, from load to valve.")
     opening = Output("1", "Share of the area that is open.")
+    loss = Output("W", "What letting down makes heat, flow times drop; it may feed a HeatActuator.")
 
     def expand(p, scene):
         """A relief with a pilot, and a check valve beside it."""
@@ -142,4 +156,4 @@ class CounterbalanceValve(Composite):
         }  # fmt: skip
         joins = [("relief.a", "check.b"), ("relief.b", "check.a")]
         ports = {"load": "relief.a", "valve": "relief.b", "pilot": "relief.pilot"}
-        return Expansion(children, joins, ports, {"flow": "relief.flow", "opening": "relief.opening"})
+        return Expansion(children, joins, ports, {name: f"relief.{name}" for name in ("flow", "opening", "loss")})

@@ -11,6 +11,9 @@ class HydraulicMotor(Component):
     Leakage is laminar: across, C_i (p_a - p_b), and out of either side into the housing, C_e p, where it is lost.
     Turned from outside it is a pump. Volumes, inertia and friction are components of their own; `loaded` is the
     torque of the oil without its sign, for friction that grows with it.
+
+    Source: docs/physics.md, 5.3; Merritt 1967. Limits: no ripple from the pistons; the displacement is constant (a
+    VariablePump has one that moves).
     """
 
     a = Hydraulic("high pressure when it drives forward")
@@ -25,6 +28,7 @@ class HydraulicMotor(Component):
     load_pressure = Output("Pa", "Pressure of a over b.")
     pressure_a = Output("Pa", "Pressure at a.")
     pressure_b = Output("Pa", "Pressure at b.")
+    loss = Output("W", "What leakage makes heat; it may feed a HeatActuator.")
     loaded = Output("N*m", "The torque without its sign, to within 1 bar.")
 
     def law(p, a, b, shaft):
@@ -39,4 +43,4 @@ class HydraulicMotor(Component):
             lost = across * difference + p.external_leakage * (a.pressure**2 + b.pressure**2)
         size = p.displacement * (sqrt(difference**2 + ROUNDED**2) - ROUNDED)
         return Law(a=into, b=-out, shaft=-torque, torque=torque, load_pressure=difference, pressure_a=a.pressure,
-                   pressure_b=b.pressure, loaded=size, dissipated=lost)  # fmt: skip
+                   pressure_b=b.pressure, loaded=size, loss=lost, dissipated=lost)  # fmt: skip

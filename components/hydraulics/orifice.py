@@ -9,6 +9,9 @@ class Orifice(Component):
     """Turbulent flow through an opening, laminar near zero:  flow = C_d A sqrt(2/rho) drop/(drop^2 + p_cr^2)^(1/4).
 
     The pressure is not recovered: flow * drop becomes heat.
+
+    flow is positive from a to b. Source: docs/physics.md, 5.1; Merritt 1967. Limits: C_d is constant, and the oil has
+    no inertia there.
     """
 
     a = Hydraulic("one side")
@@ -19,10 +22,11 @@ class Orifice(Component):
     fluid = Part(Fluid, "What flows.", default="oil")
     flow = Output("m^3/s", "Flow from a to b.")
     drop = Output("Pa", "Pressure of a over b.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
 
     def law(p, a, b):
         """What a takes in leaves at b."""
         drop = a.pressure - b.pressure
         conductance = p.fluid.conductance(p.discharge_coefficient, p.area)
         flow = throttled(conductance, drop, p.critical_pressure)
-        return Law(a=flow, b=-flow, flow=flow, drop=drop, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, flow=flow, drop=drop, loss=flow * drop, dissipated=flow * drop)

@@ -99,6 +99,9 @@ class HydraulicLine(Composite):
     and damps a wave with the damping ratio smoothing sin(pi/k), if it is k sections long: that of the first mode of a
     line with an open and a closed end is smoothing pi/(4 n). Take 0.7 for the height of fronts, 0 for the damping of
     modes. Steady flow does not depend on it.
+
+    Source: docs/physics.md, 5.1 (volumes); Joukowsky 1898; laminar loss of Hagen and Poiseuille. Limits: friction is
+    that of steady laminar flow, whatever the frequency.
     """
 
     a, b = Hydraulic("one end"), Hydraulic("the other end")

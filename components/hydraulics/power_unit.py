@@ -33,6 +33,9 @@ class PowerUnit(Composite):
     supply_dynamics on     pressure-compensated pump, accumulator, relief valve and a line:
                            (V_line/bulk_modulus + V_gas/(n p)) dp/dt = Q_pump - Q_used - Q_relief
     supply_dynamics off    the pressure is constant
+
+    Source: docs/physics.md, 5.5. Limits: those of the PressurePump, the Accumulator and the ReliefValve that it is made
+    of.
     """
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")

@@ -7,6 +7,8 @@ class PressureActuator(Component):
     """Keeps its port at the pressure that a signal says, but for what flows:  flow = conductance (wanted - pressure).
 
     An ideal pressure source whose pressure is given in time is this one with a SignalSource.
+
+    Limits: it gives any flow, and takes it back.
     """
 
     port = Hydraulic("the outlet")

@@ -4,7 +4,11 @@ from fairlead.component import Component, Hydraulic, Law, Output, Parameter
 
 
 class PressureSource(Component):
-    """Keeps its port at a pressure, at any flow."""
+    """Keeps its port at a pressure, at any flow.
+
+    port.pressure = pressure,  and `flow` is what goes out.  Source: definition. Limits: it gives any flow, and takes it
+    back.
+    """
 
     port = Hydraulic("the outlet")
     pressure = Parameter("Pa", "Pressure, absolute.", least=0)
@@ -27,6 +31,10 @@ class PressureSource(Component):
 
 
 class Tank(PressureSource):
-    """An open tank: constant pressure, by default that of the air. It takes whatever comes back."""
+    """An open tank: constant pressure, by default that of the air. It takes whatever comes back.
+
+    port.pressure = pressure,  and `flow` is what goes out: below zero what comes back.  Source: definition. Limits: its
+    level does not change, and it is never empty.
+    """
 
     pressure = Parameter("Pa", "Pressure, absolute.", default=1e5, least=0)

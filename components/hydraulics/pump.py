@@ -4,7 +4,11 @@ from fairlead.component import Component, Hydraulic, Law, Output, Parameter, Sta
 
 
 class FixedPump(Component):
-    """Gives a constant flow at any pressure; a relief valve must take the flow that is not used."""
+    """Gives a constant flow at any pressure; a relief valve must take the flow that is not used.
+
+    outlet.flow = -flow, as the flow goes out there; power = flow (p_outlet - p_inlet).  Source: Merritt 1967. Limits:
+    no leakage, no shaft (a HydraulicMotor turned from outside has one), and any pressure is overcome.
+    """
 
     inlet = Hydraulic("from the tank")
     outlet = Hydraulic("pressure side")
@@ -21,6 +25,8 @@ class PressurePump(Component):
     """Pressure-compensated pump: full flow up to cut_off - band, none from cut_off on, with a lag.
 
     lag dQ/dt = clip((cut_off - p)/band, 0, 1) * most - Q,  p the pressure of the outlet
+
+    Source: docs/physics.md, 5.5. Limits: no shaft, no leakage; the swash plate has a lag and no other dynamics.
     """
 
     inlet = Hydraulic("from the tank")

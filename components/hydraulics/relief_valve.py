@@ -10,6 +10,9 @@ class ReliefValve(Component):
 
     At a steady flow the pressure is  setting + Q/slope, or up to 0.13 % of Q/slope more. It never drives a flow: Q goes
     to zero with p_a - p_b, below a twentieth of the setting (below 1 bar if that is less).
+
+    Source: docs/physics.md, 5.5. Limits: the poppet has a lag and no mass, so the valve does not chatter; its flow
+    grows in proportion to the lift.
     """
 
     a = Hydraulic("the line it protects")
@@ -20,6 +23,7 @@ class ReliefValve(Component):
     raised = State("Pa", "Pressure above the setting that the poppet has followed.", least=0.0)
     flow = Output("m^3/s", "Flow from a to b.")
     lift = Output("Pa", "Pressure above the setting that the poppet has followed.")
+    loss = Output("W", "What becomes heat, flow times drop; it may feed a HeatActuator.")
     zones = Zones("closed", "open")
 
     @derived
@@ -33,7 +37,8 @@ class ReliefValve(Component):
         drop = a.pressure - b.pressure
         wanted = drop - p.setting if zone == "open" else 0
         flow = p.slope * raised * drop / sqrt(drop**2 + p.critical**2)
-        return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, dissipated=flow * drop)
+        return Law(a=flow, b=-flow, raised=(wanted - raised) / p.lag, flow=flow, lift=raised, loss=flow * drop,
+                   dissipated=flow * drop)  # fmt: skip
 
     @guard("closed", to="open", unit="Pa")
     def opens(p, a, b):

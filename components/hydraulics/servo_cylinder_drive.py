@@ -33,6 +33,10 @@ class ServoCylinderDrive(Composite):
     leakage            off: valve and piston are tight
     cavitation         off: a pressure may fall below zero
     seal_friction      off: the rod slides freely
+
+    m dv/dt = A_a p_a - A_b p_b - (A_a - A_b) air - seal friction - load,  with the pressures of docs/physics.md, 5.4.
+
+    Source: docs/physics.md, 5.2 and 5.4. Limits: those of `ServoValve` and `Cylinder`; the supply is that of the ports.
     """
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")

@@ -70,6 +70,9 @@ class ServoMotorDrive(Composite):
     cavitation         off: a pressure may fall below zero
     air                on: entrained air makes the oil soft at low pressure
     motor_friction     off: the shaft turns freely
+
+    Source: docs/physics.md, 5.2 and 5.3. Limits: those of `ServoValve` and `HydraulicMotor`; the two lines have the
+    same volume.
     """
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")

@@ -30,12 +30,19 @@ def lands_of(scene, valve, leakage):
 
 
 class ServoValve(Composite):
-    """Spool and lands: supply, tank, and the lines a and b to what is driven. See `Spool` and `ValveLands`."""
+    """Spool and lands: supply, tank, and the lines a and b to what is driven. See `Spool` and `ValveLands`.
+
+    supply -> a and b -> tank while the opening is positive:  flow = |opening| rated_flow sqrt(drop/rated_drop).
+
+    Source: docs/physics.md, 5.2; Merritt 1967. Limits: the command moves the spool, with no torque motor and no forces
+    of the flow on it.
+    """
 
     supply, tank = Hydraulic("pressure line"), Hydraulic("return line")
     a, b = Hydraulic("line to the load"), Hydraulic("line from the load")
     command = Input("1", "Opening asked for, -1 to 1; positive joins supply with a.")
     opening = Output("1", "Opening.")
+    loss = Output("W", "What becomes heat in all lands; it may feed a HeatActuator.")
     valve_dynamics = Effect("The spool lags behind its command and hits stops.")
     leakage = Effect("Closed lands leak.")
     rated_flow = VALVE["rated_flow"]
@@ -52,4 +59,4 @@ class ServoValve(Composite):
         children = {"spool": spool_of(scene, p, p.valve_dynamics), "lands": lands_of(scene, p, p.leakage)}
         ports = {name: f"lands.{name}" for name in ("supply", "tank", "a", "b")}
         return Expansion(children, [("spool.opening", "lands.opening")], ports,
-                         {"command": "spool.command", "opening": "spool.opening"})  # fmt: skip
+                         {"command": "spool.command", "opening": "spool.opening", "loss": "lands.loss"})  # fmt: skip

@@ -23,6 +23,8 @@ class SingleActingCylinder(Composite):
 
     m dv/dt = A (p_a - air) - preload - stiffness travel - seal friction - load. A plunger is one whose seal is at the
     rod: its diameter is the `bore_diameter`. Seal friction is that of a Cylinder.
+
+    Source: docs/physics.md, 5.4. Limits: no leakage past the piston.
     """
 
     a = Hydraulic("the bore")

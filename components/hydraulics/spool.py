@@ -57,6 +57,9 @@ class Spool(Component):
 
     With `rate_limit` the pull towards the command is limited so that x' stays below it. Rule of thumb: the frequency
     at which the valve lags by 90 degrees should be at least three times that of the load.
+
+    Source: docs/physics.md, 5.2. Limits: forces of the flow and stiction of the spool are not there; a hit on a stop
+    goes up to 1 % beyond.
     """
 
     command = Input("1", "Opening asked for, -1 to 1.", signed=True)

@@ -35,6 +35,9 @@ class ValveLands(Component):
 
     Data sheets give the flow at a drop per land (often 35 bar); no area and no density is needed. `overlap` is
     the share of the stroke without flow. Leakage past closed lands is laminar.
+
+    Source: docs/physics.md, 5.2; Merritt 1967. Limits: all four lands alike; the density of the oil is that of the data
+    sheet.
     """
 
     supply = Hydraulic("pressure line")
@@ -51,6 +54,7 @@ class ValveLands(Component):
     leakage_conductance = Parameter("m^3/s/Pa", "Leakage of one land per pressure drop.", default=0.0, least=0)
     flow_a = Output("m^3/s", "Flow out at a.")
     flow_b = Output("m^3/s", "Flow out at b.")
+    loss = Output("W", "What becomes heat in all lands; it may feed a HeatActuator.")
     zones = Zones("forward", "backward", "closed", forward=["forward"], backward=["backward"])
 
     @derived
@@ -104,7 +108,7 @@ def lands_law(p, supply, tank, a, b, delivered, drawn, lost):
         to_a, to_b = to_a + c * (in_a - out_a), to_b + c * (in_b - out_b)
         taken, returned = taken + c * (in_a + in_b), returned + c * (out_a + out_b)
         lost += c * (in_a**2 + out_a**2 + in_b**2 + out_b**2)
-    return Law(supply=taken, tank=-returned, a=-to_a, b=-to_b, flow_a=to_a, flow_b=to_b, dissipated=lost)
+    return Law(supply=taken, tank=-returned, a=-to_a, b=-to_b, flow_a=to_a, flow_b=to_b, loss=lost, dissipated=lost)
 
 
 def effective(p, x):

@@ -21,6 +21,9 @@ class VariablePump(Component):
 
     torque = setting displacement (p_out - p_in), which brakes the shaft. The setting goes from -1 (the flow turns
     round) to 1 and stays at these ends beyond them. Leakage is laminar, from side to side.
+
+    Source: Merritt 1967. Limits: friction of the shaft and the way of the swash plate are components of their own
+    (ShaftFriction, SignalLag).
     """
 
     exempt = {"odd": "Its setting chooses the direction."}

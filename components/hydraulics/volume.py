@@ -100,6 +100,9 @@ class Volume(Enclosed):
 
     A void opens where the pressure reaches zero first. Beside a Cylinder that is its chamber, behind the bore: see
     `void_a` and `void_b` there. Two volumes on one node share their void in proportion.
+
+    Flow in is positive. Source: docs/physics.md, 5.1; Merritt 1967. Limits: one pressure for the whole volume; its
+    walls give as much as the bulk modulus says.
     """
 
     air = Effect("Entrained air makes the oil soft at low pressure.", "off", off=CavitatingVolume)

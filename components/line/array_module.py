@@ -57,6 +57,9 @@ class ArrayModule(Composite):
 
     `graded` gives the length of elements over the place in the line. Make them short in the part that passes the
     devices, and long elsewhere: [[0 m, 2 m], [100 m, 2 m], [102 m, 0.25 m], [140 m, 0.25 m]].
+
+    Source: docs/physics.md, 3; Tomlinson, Cooke, Cosserat 2003. Limits: no bending stiffness, and one direction along
+    the route.
     """
 
     inboard = Translational("inboard end connector")

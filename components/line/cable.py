@@ -40,6 +40,8 @@ class Cable(Composite):
 
     line_stretch    off: the line is one body with one position and one speed, the limit of a stiff line. Its tensions
                     follow from the balance of each node. They may push, and no element is monitored for rucking
+
+    Source: docs/physics.md, 3. Limits: no motion across the route.
     """
 
     inboard = Translational("inboard end")

@@ -18,6 +18,8 @@ class RodOnGuides(Composite):
                friction/blocks (1 + unevenness sin(wave i + phase))
 
     Mass, stiffness and friction are those of the whole rod, so that more blocks mean a finer rod.
+
+    Source: docs/physics.md, 8 item 12. Limits: guides stand, and masses move along the rod only.
     """
 
     end = Translational("the end that is pulled")

@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Damper(Component):
-    """Linear viscous damper:  tension = damping * (b.v - a.v)."""
+    """Linear viscous damper:  tension = damping * (b.v - a.v).
+
+    The tension is positive while the ends part. Source: Newton's law of viscosity, as Damper of the Modelica Standard
+    Library. Limits: it pushes and pulls, at any speed.
+    """
 
     a = Translational("one end")
     b = Translational("the other end")

@@ -9,6 +9,9 @@ class Drag(Component):
     Of a body with drag coefficient C_d and area A in a fluid of density rho the quadratic part is rho C_d A/2. |v| is
     rounded at rest over `rounding`, so that the drag is smooth there. Points have the sign of v, beyond their ends too:
     for a body that moves both ways give both sides. Join `a` with a Ground for a fluid at rest.
+
+    Source: the drag equation, e.g. Hoerner 1965, Fluid-Dynamic Drag. Limits: no mass of fluid is moved along; C_d does
+    not depend on speed, unless points say so.
     """
 
     a = Translational("the fluid, or a Ground")

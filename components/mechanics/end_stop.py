@@ -18,6 +18,8 @@ class EndStop(Component):
     at 0.2 m/s. A body that comes slowly, at a speed v, goes back with (1 - 2/3 damping v) v.
 
     Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
+
+    Limits: the ends are fixed to a; what rebounds at once and never gives is a RigidStop.
     """
 
     asked_with = {"damping": 100.0}  # or no random motion would tear b off

@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Ground(Component):
-    """A point that never moves; it takes any force."""
+    """A point that never moves; it takes any force.
+
+    flange.v = 0, wherever that is.  Source: definition. Limits: it does not move; what moves as given is a
+    MotionSource.
+    """
 
     flange = Translational("the fixed point")
 
@@ -18,7 +22,10 @@ class Ground(Component):
 
 
 class FixedPoint(Component):
-    """A fixed point at `position`; it takes any force."""
+    """A fixed point at `position`; it takes any force.
+
+    flange.x = position.  Source: definition. Limits: it does not move; what moves as given is a MotionSource.
+    """
 
     flange = Translational("the fixed point")
     position = Parameter("m", "Position of the point.", physics=False)

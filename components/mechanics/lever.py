@@ -10,6 +10,8 @@ class Lever(Component):
     forces on a and b are in the inverse ratio, and the pivot takes the two. Join the pivot with a Ground for a lever in
     a bearing that stands. Limits: the arms stay square to the motion; what turns far is a Crank, or a relation of
     positions.
+
+    Source: the law of the lever (Archimedes).
     """
 
     a = Translational("one end")

@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Mass(Component):
-    """A mass that moves along a line:  force = mass * a."""
+    """A mass that moves along a line:  force = mass * a.
+
+    The force is positive along +x. Source: Newton's second law. Limits: it has no size and no weight; a ForceSource
+    gives the weight.
+    """
 
     flange = Translational("the mass itself")
     mass = Parameter("kg", "Mass.", above=0)

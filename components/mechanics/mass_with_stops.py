@@ -18,6 +18,8 @@ class MassWithStops(Composite):
     `restitution` of the speed at which the body comes; those that are `elastic` are an EndStop.
 
     Source: MassWithStopAndFriction of the Modelica Standard Library, as a composite of parts.
+
+    Limits: stops are fixed; one coefficient of friction for the whole travel.
     """
 
     flange = Translational("the body itself")

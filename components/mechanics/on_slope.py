@@ -17,6 +17,11 @@ class MassOnSlope(Composite):
 
     x grows up the slope. `curve` is sliding friction, or the coefficient of rolling resistance; it rests while that
     is above tan(angle). On level ground (angle 0) it is a body on a floor.
+
+    m a = force - m g sin(angle) - friction,  friction up to mu m g cos(angle), against the motion.
+
+    Source: friction on an inclined plane, e.g. Meriam and Kraige, Engineering Mechanics: Dynamics. Limits: the slope is
+    the same everywhere, and the body does not tip or leave it.
     """
 
     flange = Translational("the body, along the slope")

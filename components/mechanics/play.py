@@ -80,6 +80,8 @@ class Play(Loose):
     approach at 0.1 m/s, and zero if they part at 0.1 m/s. A Backlash is the same for shafts.
 
     Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
+
+    Limits: the parts of a joint alone give way; their masses are components of their own.
     """
 
     force = Output("N", "Force carried from a to b, positive forward.")
@@ -114,6 +116,9 @@ class ElasticGap(Component):
     Play have stops at both ends, and damping that grows with the deflection.
 
     Source: ElastoGap of the Modelica Standard Library (Modelica.Mechanics.Translational.Components).
+
+    Limits: one end only, without friction across; at forces far below 1 uN its corners are within the tolerance of a
+    run.
     """
 
     asked_with = {"stiffness": 1.0, "damping": 1.0}  # or no random motion would be fast, or slow, enough

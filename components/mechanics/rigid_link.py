@@ -8,6 +8,8 @@ class RigidLink(Component):
 
     What is linked becomes one body with one motion, so the link costs nothing. Its own force is not known;
     a ForceSensor holds two flanges together and tells the force.
+
+    Source: definition. Limits: it bears any force, either way.
     """
 
     a = Translational("one end")

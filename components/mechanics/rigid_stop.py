@@ -22,6 +22,8 @@ class RigidStop(Component):
 
     Limits: a stop that gives under load, and oscillates, is an EndStop. At a node without inertia nothing is given
     back.
+
+    Source: Moreau 1988; Acary and Brogliato 2008, Numerical Methods for Nonsmooth Dynamical Systems.
     """
 
     exempt = {"settles": "bodies pulled apart within each other, which no run comes to: docs/integrator.md, Impacts"}

@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class Spring(Component):
-    """Linear spring:  tension = stiffness * (b.x - a.x - free_length)."""
+    """Linear spring:  tension = stiffness * (b.x - a.x - free_length).
+
+    The tension is positive when stretched. Source: Hooke's law. Limits: it may push and pull; it has no mass and no
+    damping.
+    """
 
     transmits = True  # in steady motion its ends move alike
     a = Translational("one end")

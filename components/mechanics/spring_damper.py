@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Translational
 
 
 class SpringDamper(Component):
-    """Kelvin-Voigt element:  tension = stiffness * stretch + damping * rate of stretch."""
+    """Kelvin-Voigt element:  tension = stiffness * stretch + damping * rate of stretch.
+
+    The tension is positive when stretched. Source: Kelvin and Voigt, as SpringDamper of the Modelica Standard Library.
+    Limits: the damping pulls while the ends part, also where nothing is stretched.
+    """
 
     transmits = True  # in steady motion its ends move alike
     a = Translational("one end")

@@ -10,6 +10,9 @@ class TableSpring(Component):
 
     The energy stored is the integral of the table from no stretch. Beyond its ends a table keeps its last tension,
     unless it says `beyond: line`.
+
+    The tension is positive when stretched. Source: as measured. Limits: the same curve for loading and unloading;
+    hysteresis is that of the damping.
     """
 
     transmits = True  # in steady motion its ends move alike

@@ -10,6 +10,9 @@ class Tether(Component):
     slack:  tension = 0
 
     It carries no damping and no mass; a snap is limited by the masses at its ends.
+
+    The tension is never negative. Source: docs/physics.md, 3.2. Limits: a line of one element has no waves; take a
+    Cable for those.
     """
 
     a = Translational("inboard end")

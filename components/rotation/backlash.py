@@ -17,6 +17,9 @@ class Backlash(Component):
     pull, as in an `EndStop`. With `damping` of 10 s/rad it is twice that of the spring if the teeth approach at 0.1
     rad/s, and 61 times at 6 rad/s. So take a smaller `damping` for fast shafts. Teeth that meet slowly, at a speed v,
     part again with (1 - 2/3 damping v) v.
+
+    Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring. Limits: the gap is the same at
+    every tooth, and teeth are not lubricated.
     """
 
     transmits = True  # in steady motion its ends move alike

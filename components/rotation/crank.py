@@ -28,6 +28,8 @@ class Crank(Component):
     Contact whose `normal` is a SignalSize of `thrust`.
 
     Limits: the rod has no mass; add its mass to the two sides.
+
+    Source: kinematics of the slider-crank, e.g. Meriam and Kraige, Engineering Mechanics: Dynamics.
     """
 
     shaft = Rotational("the shaft with the crank")

@@ -30,6 +30,8 @@ class DogClutch(Component):
     momentum.
 
     Limits: the teeth have no play (put a Backlash in series), and do not wait to meet a gap.
+
+    Source: conservation of angular momentum; docs/integrator.md, Impacts.
     """
 
     a = Rotational("one shaft")

@@ -8,6 +8,8 @@ class Gear(Component):
 
     A negative ratio turns the other way, as a pair of spur gears does. What is geared becomes one degree of
     freedom, in which inertias count with the ratio squared.
+
+    Source: Shigley's Mechanical Engineering Design. Limits: teeth do not give, play or lose; see LossyGear, Backlash.
     """
 
     a = Rotational("driving shaft")

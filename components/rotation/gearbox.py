@@ -30,6 +30,8 @@ class Gearbox(Composite):
     The loss is dry friction on shaft b that follows the torque carried, (1 - efficiency)|torque_a/ratio|: so it
     sticks, and while b drives a the share that arrives is 1/(2 - efficiency). With `backlash` the teeth have a gap
     and give way. Without both it is a `Gear`: a rigid ratio that costs nothing.
+
+    Source: docs/physics.md, 5.6. Limits: one efficiency at every speed and torque; see LossyGear for both ways.
     """
 
     a = Rotational("driving shaft")
@@ -63,7 +65,8 @@ class Gearbox(Composite):
         joins, shown = [("gear.b", "teeth.a")], {"torque": "teeth.torque"}
         if p.gear_friction == "on":
             children["loss"] = scene.make(LoadLoss, efficiency=p.efficiency, round_off=p.round_off)
-            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if p.efficiency < 1 else 0.0)
+            children["rubbing"] = scene.make(Brake, radius=1.0, curve=1.0 if p.efficiency < 1 else 0.0,
+                                             normal_force=p.round_off)  # fmt: skip
             joins += [("teeth.torque", "loss.carried"), ("loss.loss", "rubbing.normal"), ("rubbing.shaft", "teeth.b")]
             shown["loss"] = "rubbing.torque"
         return Expansion(children, joins, {"a": "gear.a", "b": "teeth.b"}, shown)

@@ -4,7 +4,10 @@ from fairlead.component import Component, Rotational
 
 
 class Housing(Component):
-    """Never turns; it takes any torque."""
+    """Never turns; it takes any torque.
+
+    shaft.speed = 0.  Source: definition. Limits: it does not turn; what turns as given is a SpeedSource.
+    """
 
     shaft = Rotational("the fixed point")
 

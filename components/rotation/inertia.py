@@ -4,7 +4,10 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational
 
 
 class Inertia(Component):
-    """A body that turns about a fixed axis:  torque = inertia * angular acceleration."""
+    """A body that turns about a fixed axis:  torque = inertia * angular acceleration.
+
+    The torque is positive forward. Source: Euler's second law. Limits: a fixed axis; no imbalance.
+    """
 
     shaft = Rotational("the body itself")
     moment = Parameter("kg*m^2", "Moment of inertia about the axis.", above=0)

@@ -1,5 +1,6 @@
 """Screws: a thread between a shaft and a nut, or between a worm and its wheel, that rubs on its flanks."""
 
+from fairlead.components.friction.contact import small_lift
 from fairlead.components.friction.curve import Curve
 from fairlead.components.friction.frictionless import contact_of
 from fairlead.components.rotation.rack import Rack
@@ -90,7 +91,7 @@ def thread(p, scene):
         "pressed": scene.make(ForceSensor),
         "load": scene.make(FlankLoad, slope=slope, half_angle=p.half_angle, preload=p.preload, round_off=p.round_off),
         "flank": scene.make(Flank, radius=p.radius, slope=slope),
-        "contact": contact_of(scene, p.curve, **word),
+        "contact": contact_of(scene, p.curve, **small_lift(p.round_off), **word),
     }
     joins = [
         ("thread.rack", "pressed.a"), ("pressed.tension", "load.axial"), ("load.normal", "contact.normal"),
@@ -142,6 +143,8 @@ class Worm(Screw):
     Limits: those of LeadScrew. The load of a worm that locks itself does not follow it down, if the inertia at the
     wheel is too large for that at the worm (m' is moment/wheel_radius^2). Give the load a TorsionSpring, and the wheel
     an Inertia of its own.
+
+    Source: Shigley's Mechanical Engineering Design, worm gears.
     """
 
     worm = Rotational("the worm")

@@ -39,6 +39,8 @@ class Cam(Linkage):
 
     The follower stays on the cam, as in a groove. With one lobe it is an eccentric disc. A `force` below zero would
     lift a follower off that only a spring presses.
+
+    Source: the harmonic cam, e.g. Shigley's Mechanical Engineering Design. Limits: no friction or play at the follower.
     """
 
     base = Parameter("m", "Position of the follower at its lowest.", default=0.0)
@@ -56,6 +58,9 @@ class ArmPin(Linkage):
     The slider has a slot for the pin, so it follows the pin along one line only. Use it like a Lever, but for large
     angles: two of them on one shaft, each with its radius, make a lever of two arms. On a shaft that turns all the way
     round it is a Scotch yoke.
+
+    Source: kinematics of the Scotch yoke, e.g. Meriam and Kraige, Engineering Mechanics: Dynamics. Limits: slot and pin
+    have no mass, play or friction.
     """
 
     radius = Parameter("m", "Distance of the pin from the shaft; negative: on the other side.")
@@ -83,6 +88,8 @@ class ArmStrut(Linkage):
 
     Limits: the strut has no mass except that of the slider. The arm does not pass through the line of the frame point,
     where the strut has no leverage.
+
+    Source: the law of cosines.
     """
 
     frame = Parameter("m", "Distance of the frame's point from the shaft.", above=0)

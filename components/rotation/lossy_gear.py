@@ -143,6 +143,8 @@ class LossyGear(Composite):
         """Friction on shaft a, what the teeth carry, and a rigid gear."""
         given = {name: getattr(p, name) for name in EFFICIENCY if getattr(p, name) is not None}
         word = {} if p.method is None else {"method": p.method}
+        if p.round_off < EFFICIENCY["round_off"].default:  # a small gear: what holds at all is as much smaller
+            word["normal_force"] = p.round_off
         children = {
             "loss": scene.make(ToothLoss, **given),
             "rubbing": scene.make(Brake, radius=1.0, curve=1.0 if loses(p) else 0.0, **word),

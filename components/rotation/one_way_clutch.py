@@ -12,6 +12,8 @@ class OneWayClutch(Component):
     The torque turns b forward and a back. With a at a Housing it is a backstop: b turns forward only. Where a catches
     up with b at once, an impulse brings both to one speed and what it takes is booked as lost (`docs/integrator.md`,
     Impacts). Limits: no windup and no drag of the free clutch; put a TorsionSpring in series, a ShaftFriction beside.
+
+    Source: OneWayClutch of the Modelica Standard Library, with an impulse; docs/integrator.md, Impacts.
     """
 
     exempt = {"odd": "It carries one way."}

@@ -9,6 +9,9 @@ class Pendulum(Component):
     """A mass on a rigid arm that turns in a vertical plane:  (I + m l^2) alpha = -m g l sin(angle - hanging).
 
     Small swings have the angular frequency sqrt(m g l/(I + m l^2)). `load` is the torque of gravity on the shaft.
+
+    Source: the physical pendulum, e.g. Meriam and Kraige, Engineering Mechanics: Dynamics. Limits: the pivot stands,
+    and the arm is rigid.
     """
 
     shaft = Rotational("the axis")

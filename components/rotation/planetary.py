@@ -10,6 +10,8 @@ class Planetary(Component):
     inertia takes no torque, and then none carries any. Limits: the inertia of the planets is to be added to the
     carrier; losses are a ShaftFriction or a Gearbox beside it. How contacts at all three shafts share a load while all
     of them hold is not known: clutches and brakes must be pressed in turn, by signals.
+
+    Source: Willis's equation, 1841; IdealPlanetary of the Modelica Standard Library.
     """
 
     sun = Rotational("shaft of the sun")
@@ -32,6 +34,8 @@ class Differential(Component):
     """Shares the torque of a case equally between two shafts:  left.speed + right.speed = 2 case.speed.
 
     Limits: no friction between the side gears; for a limited slip put a Clutch between left and right.
+
+    Source: IdealPlanetary with ratio 1 of the Modelica Standard Library.
     """
 
     case = Rotational("what is driven")
@@ -52,6 +56,8 @@ class SupportedGear(Component):
 
     The support takes what torque the two shafts leave over: a gear motor on a torque arm, a gear on a swinging frame.
     With the support at a Housing it is a `Gear`, which costs nothing.
+
+    Source: Willis's equation, 1841. Limits: no loss and no play.
     """
 
     a = Rotational("driving shaft")

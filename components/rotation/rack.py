@@ -7,6 +7,8 @@ class Rack(Component):
     """A pinion moves a rack without loss or play:  rack.x = radius * pinion.angle + offset.
 
     Force on the rack times radius is the torque on the pinion. Both become one degree of freedom.
+
+    Source: rolling without slip. Limits: no loss and no play; rolling that slips is a Clutch or a Contact.
     """
 
     pinion = Rotational("the shaft")

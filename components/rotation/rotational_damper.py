@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational
 
 
 class RotationalDamper(Component):
-    """Viscous torque:  torque = damping * (b.speed - a.speed). Joined with a Housing it is the drag of a bearing."""
+    """Viscous torque:  torque = damping * (b.speed - a.speed). Joined with a Housing it is the drag of a bearing.
+
+    Positive torque turns b back. Source: Newton's law of viscosity. Limits: in proportion at any speed; a ShaftLoad has
+    other laws.
+    """
 
     a = Rotational("one shaft")
     b = Rotational("the other shaft")

@@ -19,6 +19,8 @@ class RotationalStop(Component):
     damping v) v.
 
     Source: Hunt and Crossley 1975, J. Applied Mechanics 42, 440, with a linear spring.
+
+    Limits: the stops turn with a, and there is no other pair in the next turn.
     """
 
     a = Rotational("what carries the stops")

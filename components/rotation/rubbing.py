@@ -73,6 +73,7 @@ class Rubbing(Composite, abstract=True):
     heat = Block(THERMAL, "What friction warms; then the curve's softening is a fade.", default=None)
     normal = Input("N", "Normal force.", default="normal_force")
     torque = Output("N*m", "Friction torque, positive when it opposes positive slip.")
+    friction = Output("N", "Friction of all faces, at the radius; times slip it is the loss (FrictionLoss).")
     slip = Output("m/s", "Slip speed at the radius.")
     temperature = Output("K", "Temperature of the faces, if they are warmed.")
 
@@ -99,7 +100,8 @@ def rubbing(p, scene, other):
         (surface, "contact.a"), ("rim_b.rack", "contact.b"), ("pressing.pressing", "contact.normal"),
         ("contact.friction", "lever.friction"),
     ]  # fmt: skip
-    shown = {"torque": "lever.torque", "slip": "contact.slip", "normal": "pressing.normal"}
+    shown = {name: f"contact.{name}" for name in ("friction", "slip")}
+    shown |= {"torque": "lever.torque", "normal": "pressing.normal"}
     if p.heat is not None:
         children["body"] = scene.make(FrictionHeat, **vars(p.heat))
         joins += [(f"contact.{name}", f"body.{name}") for name in ("friction", "slip")]
@@ -115,6 +117,9 @@ class Clutch(Rubbing):
     The normal force may be a signal: connect it to `normal`, and the clutch engages as it is pressed. For plates
     between radii r and R the mean radius is (r + R)/2 when they are run in (uniform wear). New plates (uniform
     pressure) have 2/3 (R^3 - r^3)/(R^2 - r^2). For fade use `heat` with a curve that has a `softening`.
+
+    Source: Shigley's Mechanical Engineering Design, clutches (uniform wear and uniform pressure). Limits: all faces
+    have one temperature and one coefficient; no drag while open.
     """
 
     a, b = Rotational("one shaft"), Rotational("the other shaft")
@@ -125,7 +130,11 @@ class Clutch(Rubbing):
 
 
 class Brake(Rubbing):
-    """A shaft held by friction against the housing: torque up to faces * radius * mu * normal force."""
+    """A shaft held by friction against the housing: torque up to faces * radius * mu * normal force.
+
+    Source: Shigley's Mechanical Engineering Design, disc and drum brakes (uniform wear). Limits: shoes do not press
+    themselves on.
+    """
 
     shaft = Rotational("the braked shaft")
 
@@ -137,7 +146,11 @@ class Brake(Rubbing):
 class Bearing(Rubbing):
     """A shaft that rubs in a plain bearing: torque radius * mu(slip) * load, with the bore's radius.
 
+    torque = radius friction,  friction = faces mu(slip) normal,  slip = radius speed: positive against forward turning.
     A Stribeck or hump curve describes boundary, mixed and lubricated running; `normal` is the radial load.
+
+    Source: docs/physics.md, 1.2 (curves); Stribeck 1902. Limits: the shaft does not shift in its bore, and no oil film
+    forms in time.
     """
 
     shaft = Rotational("the shaft in the bearing")

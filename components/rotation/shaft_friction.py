@@ -36,8 +36,14 @@ class Turning(Component):
 class ShaftFriction(Composite):
     """Dry friction between two shafts given as a torque over their speed, with no radius and no normal force.
 
-    torque while turning, `breakaway` from rest, and between the two a decay over `speed` (Stribeck); `viscous` grows in
-    proportion; or `points` of a measurement. Join `a` with a Housing for the friction of a bearing or a seal.
+        torque = sliding + (breakaway - sliding) exp(-(w/speed)^2) + viscous w       for w > 0, and the same backward
+
+    w is b.speed - a.speed. Without `speed` the torque falls from breakaway to sliding at once. With `points` of a
+    measurement it follows these. On b the torque acts against w. At rest it is the torque that holds, up to breakaway.
+    Join `a` with a Housing for the friction of a bearing or a seal.
+
+    Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994), 1083, section 2 (Stribeck curve). Limits:
+    the torque does not depend on load, angle or direction.
     """
 
     a, b = Rotational("one shaft, or a Housing"), Rotational("the other shaft")

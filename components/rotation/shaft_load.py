@@ -9,6 +9,8 @@ class ShaftLoad(Component):
     Of a fan or propeller whose power is P at w the quadratic part is P/w^3. |w| is rounded at rest over `rounding`, so
     that the torque is smooth there. `points` tell a measured load, both ways of turning or by its sign what drives.
     Limits: what resists at rest is dry friction, a ShaftFriction.
+
+    Source: the affinity laws of fans and pumps.
     """
 
     shaft = Rotational("the loaded shaft")

@@ -8,6 +8,9 @@ class TorqueSensor(Component):
 
     A coupling whose ends move together would be merged away, so the torque is an unknown and the ends are held to
     one speed.
+
+    torque = what keeps b.speed = a.speed; positive where b would lag behind.  Source: definition. Limits: it is rigid;
+    what twists is a TorsionSpring.
     """
 
     transmits = True  # in steady motion its ends move alike

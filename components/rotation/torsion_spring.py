@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Parameter, Rotational
 
 
 class TorsionSpring(Component):
-    """A shaft that twists:  torque = stiffness * (b.angle - a.angle - rest) + damping * (b.speed - a.speed)."""
+    """A shaft that twists:  torque = stiffness * (b.angle - a.angle - rest) + damping * (b.speed - a.speed).
+
+    Source: Saint-Venant's torsion, with damping in proportion. Limits: no inertia and no waves along the shaft; put
+    Inertia and TorsionSpring in turn.
+    """
 
     transmits = True  # in steady motion its ends move alike
     a = Rotational("one end")

@@ -23,6 +23,9 @@ class Route(Composite):
     Nodes of a line travel along the route. A node is in a device by the share of its piece of line that lies in it. So
     the shares that two neighbouring devices have of a node sum to one. The moving parts of a device have ports below
     its name: `route.deployer.belt`, `route.winch.shaft`.
+
+    Source: docs/physics.md, 4. Limits: the route is a way of arcs and straight pieces that does not move; only drives
+    and rollers of devices do.
     """
 
     path = Path("the line that runs along it")

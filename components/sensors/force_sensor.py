@@ -8,6 +8,9 @@ class ForceSensor(Component):
 
     A link whose ends move together would be merged away, so the tension is an unknown of its own and
     the link holds its ends to one speed.
+
+    tension = what keeps b.v = a.v.  Source: definition. Limits: it is rigid, exact and without lag; see SignalLag and
+    SampledSensor.
     """
 
     transmits = True  # in steady motion its ends move alike

@@ -4,7 +4,10 @@ from fairlead.component import Component, Law, Output, Translational
 
 
 class MotionSensor(Component):
-    """Reads position, velocity and acceleration of a flange and takes no force."""
+    """Reads position, velocity and acceleration of a flange and takes no force.
+
+    Source: definition. Limits: exact and without lag; see SignalLag and SampledSensor.
+    """
 
     flange = Translational("the point observed")
     x = Output("m", "Position.")

@@ -4,7 +4,10 @@ from fairlead.component import Component, Law, Output, Translational, Unknown, h
 
 
 class RelativeMotionSensor(Component):
-    """Reads the position and the velocity of b relative to a; it takes no force."""
+    """Reads the position and the velocity of b relative to a; it takes no force.
+
+    x = b.x - a.x,  v = b.v - a.v.  Source: definition. Limits: exact and without lag; see SignalLag and SampledSensor.
+    """
 
     a = Translational("what is read from")
     b = Translational("what is read")
@@ -17,7 +20,10 @@ class RelativeMotionSensor(Component):
 
 
 class PowerSensor(Component):
-    """A rigid link that reads the power it carries from a to b; its ends keep their distance at the start."""
+    """A rigid link that reads the power it carries from a to b; its ends keep their distance at the start.
+
+    power = -tension b.v.  Source: definition. Limits: it is rigid, exact and without lag.
+    """
 
     transmits = True  # in steady motion its ends move alike
     a = Translational("one end")

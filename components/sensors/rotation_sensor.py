@@ -4,7 +4,10 @@ from fairlead.component import Component, Law, Output, Rotational, Unknown, hold
 
 
 class RotationSensor(Component):
-    """Reads angle, speed and acceleration of a shaft and takes no torque."""
+    """Reads angle, speed and acceleration of a shaft and takes no torque.
+
+    Source: definition. Limits: exact and without lag; see SignalLag and SampledSensor.
+    """
 
     shaft = Rotational("the shaft observed")
     angle = Output("rad", "Angle.")
@@ -17,7 +20,10 @@ class RotationSensor(Component):
 
 
 class RelativeRotationSensor(Component):
-    """Reads the angle and the speed of b relative to a; it takes no torque."""
+    """Reads the angle and the speed of b relative to a; it takes no torque.
+
+    angle = b.angle - a.angle,  speed = b.speed - a.speed.  Source: definition. Limits: exact and without lag.
+    """
 
     a = Rotational("what is read from")
     b = Rotational("what is read")
@@ -30,7 +36,11 @@ class RelativeRotationSensor(Component):
 
 
 class RotationalPowerSensor(Component):
-    """A rigid coupling that reads the power it carries from a to b; its ends keep their angle to each other."""
+    """A rigid coupling that reads the power it carries from a to b; its ends keep their angle to each other.
+
+    power = torque b.speed,  the torque that turns b forward.  Source: definition. Limits: it is rigid, exact and
+    without lag.
+    """
 
     transmits = True  # in steady motion its ends move alike
     a = Rotational("one end")

@@ -21,6 +21,8 @@ class SampledSensor(Controller):
 
     Source of the numbers: two outputs of SplitMix64 (Steele, Lea and Flood 2014, OOPSLA, DOI 10.1145/2660193.2660195)
     through the transform of Box and Muller (1958), DOI 10.1214/aoms/1177706645.
+
+    Limits: no lag (put a SignalLag before it), and no jitter of the samples.
     """
 
     passes = "value"

@@ -15,7 +15,10 @@ class PerfectSignal(Component):
 
 
 class SignalLag(Component):
-    """A sensor with a lag:  lag d(signal)/dt = value - signal."""
+    """A sensor with a lag:  lag d(signal)/dt = value - signal.
+
+    Source: FirstOrder of the Modelica Standard Library. Limits: one time constant; a TransferFunction has more.
+    """
 
     passes = "value"
     value = Input("1", "Measured quantity.", signed=True)

@@ -4,7 +4,10 @@ from fairlead.component import Choice, Component, Input, Law, Output, Parameter,
 
 
 class SignalProduct(Component):
-    """signal = gain a b;  an input that nothing is connected to counts 1."""
+    """signal = gain a b;  an input that nothing is connected to counts 1.
+
+    Source: Product of the Modelica Standard Library. Limits: two inputs.
+    """
 
     a = Input("1", "First factor.", 1.0, signed=True)
     b = Input("1", "Second factor.", 1.0, signed=True)
@@ -17,7 +20,11 @@ class SignalProduct(Component):
 
 
 class SignalSelect(Component):
-    """The larger of two signals, or the smaller:  `pick: greatest` or `least`. Which one passes is a zone."""
+    """The larger of two signals, or the smaller:  `pick: greatest` or `least`. Which one passes is a zone.
+
+    signal = max(a, b), or min(a, b).  Source: Min and Max of the Modelica Standard Library. Limits: two inputs; take
+    two of them for three.
+    """
 
     exempt = {"odd": "The larger of two signals reversed is the smaller one."}
     a = Input("1", "One signal.", signed=True)
@@ -49,7 +56,10 @@ class SignalSelect(Component):
 
 
 class SignalSize(Component):
-    """signal = |value|;  the corner at zero is a change of zone, not rounded."""
+    """signal = |value|;  the corner at zero is a change of zone, not rounded.
+
+    Source: Abs of the Modelica Standard Library. Limits: it has a corner, at which a step ends.
+    """
 
     value = Input("1", "What comes in.", signed=True)
     signal = Output("1", "Its size.")

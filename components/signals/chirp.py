@@ -11,6 +11,8 @@ class SignalChirp(Component):
 
     After `over` the frequency stays at `last`. What else a signal is in time, a SignalSource tells: ramps, pulses, a
     table from a file.
+
+    Limits: a frequency that is swept fast is never steady; a step has to be short beside its last period.
     """
 
     amplitude = Parameter("1", "Amplitude of the sine, in the SI unit of the input that it feeds.", default=1.0)

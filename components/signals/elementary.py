@@ -24,6 +24,8 @@ class SignalQuotient(Component):
     """signal = gain a/b;  an input that nothing is connected to counts 1.
 
     Limits: b must not come to zero, where there is no quotient.
+
+    Source: Division of the Modelica Standard Library.
     """
 
     a = Input("1", "What is divided.", 1.0, signed=True)
@@ -57,6 +59,8 @@ class SignalMark(Component):
 
     What is made of the value may be narrow there, as exp(-value^2) is: a step that begins and ends beside it sees
     nothing of it. Or it is one of several conditions, and for a short time all of them hold.
+
+    Source: docs/integrator.md, Narrow features. Limits: it marks zero only; subtract a level before it.
     """
 
     value = Input("1", "What comes in.", signed=True)

@@ -42,6 +42,8 @@ class SignalFunction(Composite):
     `exp(-((x - 5)/0.01)**2)` or `1/(1 + x**4)` is not missed, however narrow (docs/integrator.md).
 
     Limits: a divisor must not come to zero. The arguments of roots and logarithms must stay above zero.
+
+    Source: docs/netlist.md, Expressions.
     """
 
     asked_with = {"expression": "a*sin(b) + 2"}

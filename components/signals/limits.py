@@ -4,7 +4,11 @@ from fairlead.component import Component, Input, Law, Output, Parameter, Zones, 
 
 
 class Limiter(Component):
-    """signal = value, but not below `low` nor above `high`; at a limit it is in a zone of its own."""
+    """signal = value, but not below `low` nor above `high`; at a limit it is in a zone of its own.
+
+    Source: Limiter of the Modelica Standard Library. Limits: the limits are constants; SignalSelect takes one that
+    moves.
+    """
 
     asked_with = {"low": -1.0, "high": 1.0}
     value = Input("1", "What comes in.", signed=True)
@@ -46,7 +50,10 @@ class Limiter(Component):
 
 
 class DeadZone(Component):
-    """signal = 0 while |value| is below `band`, and gain (|value| - band) with the sign of the value beyond."""
+    """signal = 0 while |value| is below `band`, and gain (|value| - band) with the sign of the value beyond.
+
+    Source: DeadZone of the Modelica Standard Library. Limits: the same on both sides; shift the value before it.
+    """
 
     value = Input("1", "What comes in.", signed=True)
     band = Parameter("1", "Half the width that is not heard, in SI of what comes in.", above=0)
@@ -81,6 +88,9 @@ class DeadBand(Component):
     Between `inner` and `band` the signal stays what it was. A DeadZone passes what exceeds its limit; a DeadBand
     passes the whole value, so its signal jumps. Put it before the error of a control to let the control rest while the
     error is small.
+
+    Source: a dead band of controllers that rest. Limits: its signal jumps, so a loop over it may oscillate about the
+    band.
     """
 
     asked_with = {"inner": 0.2, "band": 0.5}

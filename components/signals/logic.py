@@ -45,6 +45,9 @@ class LogicGate(Component):
 
     and: both are on.  or: one at least.  xor: one alone. A `not` is the inverse of a signal joined to both. Its zone
     says which of the two are on, so what is on for a short time together is not missed.
+
+    Source: And, Or and Xor of the Modelica Standard Library. Limits: two inputs; a StateMachine takes conditions over
+    more.
     """
 
     exempt = {"odd": "On and off are not symmetric."}
@@ -78,6 +81,9 @@ class SignalEdge(Component):
 
     What is shorter than a `period` is not seen, as in a controller that scans its inputs. `reset` above 1/2 sets the
     count to zero and keeps it there.
+
+    Source: rising and falling edges of IEC 61131-3 (R_TRIG, F_TRIG, CTU). Limits: sampled; a step of the count is late
+    by up to a period.
     """
 
     value = Input("1", "What is watched.", signed=True)
@@ -109,6 +115,8 @@ class SignalTimer(Component):
 
     It begins anew when the value goes off: a delay on making, as a timer relay has it. `keep: on` keeps what has
     elapsed, which `reset` alone sets to zero: a meter of hours.
+
+    Source: the timer TON of IEC 61131-3. Limits: sampled, so times are multiples of the period.
     """
 
     value = Input("1", "What is timed.", signed=True)

@@ -4,7 +4,11 @@ from fairlead.component import Component, Controller, Count, Discrete, Input, La
 
 
 class SampleHold(Component):
-    """signal = the value at the last sample, one every `period`."""
+    """signal = the value at the last sample, one every `period`.
+
+    Source: a zero-order hold, as Sampler of the Modelica Standard Library. Limits: the first sample is taken at the
+    start.
+    """
 
     value = Input("1", "What is sampled.", signed=True)
     period = Parameter("s", "Time between samples.", above=0)
@@ -25,6 +29,9 @@ class SignalDelay(Controller):
     """signal = the value `samples` samples ago, one every `period`:  a delay of samples period, as of a bus.
 
     Before the first value has come through it is `initial`.
+
+    Source: UnitDelay of the Modelica Standard Library, `samples` of them in a row. Limits: a delay that is no multiple
+    of a period is not there.
     """
 
     value = Input("1", "What comes in.", signed=True)

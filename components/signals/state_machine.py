@@ -29,6 +29,8 @@ class StateMachine(Composite):
 
     Limits: two states that lead to each other at one instant do not settle, so leave a gap between their conditions.
     Conditions take no time; a `SignalTimer` measures it.
+
+    Source: sequential function charts, IEC 61131-3, with one state active.
     """
 
     asked_with = {"states": (("off", {"power": 0}), ("on", {"power": 1})),

@@ -8,6 +8,8 @@ class Relay(Component):
 
     Both levels the same make a comparator. Where the value starts between the levels, it is off, or on with
     `begins_on: yes`.
+
+    Source: Hysteresis of the Modelica Standard Library. Limits: it takes no time to switch.
     """
 
     exempt = {"odd": "A relay is not symmetric unless its levels are."}
@@ -48,7 +50,10 @@ class Relay(Component):
 
 
 class SignalSwitch(Component):
-    """signal = a while `control` is above `level`, else b."""
+    """signal = a while `control` is above `level`, else b.
+
+    Source: Switch of the Modelica Standard Library. Limits: the signal jumps where a and b differ.
+    """
 
     exempt = {"odd": "Reversed, the control chooses the other signal."}
     a = Input("1", "Passes while the control is above its level.", signed=True)

@@ -4,7 +4,11 @@ from fairlead.component import Component, Input, Law, Output, Table
 
 
 class SignalTable(Component):
-    """signal = points(value):  a characteristic in one dimension, as measured or from a data sheet."""
+    """signal = points(value):  a characteristic in one dimension, as measured or from a data sheet.
+
+    Source: CombiTable1D of the Modelica Standard Library. Limits: beyond its ends a table keeps its last value, unless
+    it says `beyond: line`.
+    """
 
     exempt = {"odd": "A table is what it is."}
     value = Input("1", "What comes in.", signed=True)

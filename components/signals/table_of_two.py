@@ -22,6 +22,8 @@ class SignalTable2(Composite):
     y. All numbers are in SI; x and y must grow. Beyond its borders the map keeps the value at the border. A map of n
     rows is made of n tables over x, each times its share at y. It has a corner at each x and each y, and a run locates
     them.
+
+    Source: CombiTable2D of the Modelica Standard Library with linear segments. Limits: no cubic surface.
     """
 
     x = Input("1", "Along the first row.", signed=True)

@@ -60,6 +60,8 @@ class PositionActuator(Guided):
 
     It takes whatever force that takes: an ideal drive. A steady wish is reached without overshoot, a growing one
     followed 2 lag behind. It begins at rest at `origin`.
+
+    Source: Position of the Modelica Standard Library, with a filter. Limits: no limit of force or speed.
     """
 
     wanted = Input("m", "Position to go to.", signed=True)
@@ -76,6 +78,8 @@ class VelocityActuator(Guided):
     """Moves its flange with the velocity of a signal, with a lag:  lag v' = wanted - v.
 
     It takes whatever force that takes: an ideal drive.
+
+    Source: Speed of the Modelica Standard Library, with a filter. Limits: no limit of force.
     """
 
     wanted = Input("m/s", "Velocity to go with.", signed=True)
@@ -90,7 +94,11 @@ class VelocityActuator(Guided):
 
 
 class AccelerationActuator(Guided):
-    """Moves its flange with the acceleration of a signal, at any force:  v' = wanted."""
+    """Moves its flange with the acceleration of a signal, at any force:  v' = wanted.
+
+    Source: Accelerate of the Modelica Standard Library. Limits: it bears any force; position and velocity drift with an
+    error of the signal.
+    """
 
     wanted = Input("m/s^2", "Acceleration.", signed=True)
     start = Parameter("m/s", "Velocity at the start.", default=0.0, physics=False)
@@ -105,6 +113,8 @@ class AngleActuator(Turned):
     """Turns its shaft to the angle of a signal:  lag^2 angle'' + 2 lag angle' + angle = wanted.
 
     It takes whatever torque that takes: an ideal drive, as a PositionActuator is along a line.
+
+    Source: Position of the Modelica Standard Library, with a filter. Limits: no limit of torque or speed.
     """
 
     wanted = Input("rad", "Angle to turn to.", signed=True)
@@ -121,6 +131,8 @@ class SpeedActuator(Turned):
     """Turns its shaft with the speed of a signal, with a lag:  lag speed' = wanted - speed.
 
     It takes whatever torque that takes: an ideal drive. A PositionServo or a motor with a PiController is a real one.
+
+    Source: Speed of the Modelica Standard Library, with a filter. Limits: no limit of torque.
     """
 
     wanted = Input("rad/s", "Speed to turn with.", signed=True)

@@ -4,7 +4,11 @@ from fairlead.component import Component, Input, Law, Output, Translational, Wav
 
 
 class ForceSource(Component):
-    """Pulls its flange in the direction of +x with a given force."""
+    """Pulls its flange in the direction of +x with a given force.
+
+    flange.force = -force(t), as it acts on what is joined.  Source: Force of the Modelica Standard Library. Limits: any
+    speed; it does not depend on the motion.
+    """
 
     flange = Translational("where the force acts")
     force = Waveform("N", "Force in time, positive towards +x.")
@@ -17,7 +21,11 @@ class ForceSource(Component):
 
 
 class ForceActuator(Component):
-    """An ideal drive: pulls its flange in the direction of +x with the force of a signal."""
+    """An ideal drive: pulls its flange in the direction of +x with the force of a signal.
+
+    flange.force = -force, as it acts on what is joined.  Source: Force of the Modelica Standard Library. Limits: any
+    speed; no lag.
+    """
 
     flange = Translational("where the force acts")
     force = Input("N", "Force, positive towards +x.", signed=True)

@@ -21,6 +21,8 @@ class MotionSource(Component):
     """Moves its flange as prescribed, at any force.
 
     Give either `velocity` (the position follows by integration from `origin`) or `position`.
+
+    flange.v = velocity(t).  Source: definition. Limits: it bears any force; a position may not jump.
     """
 
     flange = Translational("the driven point")
@@ -71,6 +73,8 @@ class SpeedSource(Component):
     """An ideal drive of given speed: turns its shaft as prescribed, at any torque.
 
     Give either `speed` (the angle follows by integration from `origin`) or `angle`.
+
+    shaft.speed = speed(t).  Source: definition. Limits: it bears any torque; an angle may not jump.
     """
 
     shaft = Rotational("the driven shaft")

@@ -4,7 +4,11 @@ from fairlead.component import Component, Law, Output, Waveform
 
 
 class SignalSource(Component):
-    """A plain number that varies with time; it may feed any input, and counts there in SI."""
+    """A plain number that varies with time; it may feed any input, and counts there in SI.
+
+    signal = value(t).  Source: docs/netlist.md, Quantities that vary with time. Limits: a plain number; sources of
+    forces and motions take quantities.
+    """
 
     value = Waveform("1", "Value in time.")
     signal = Output("1", "The value.")

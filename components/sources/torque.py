@@ -4,7 +4,11 @@ from fairlead.component import Component, Input, Law, Output, Rotational, Wavefo
 
 
 class TorqueSource(Component):
-    """Turns its shaft forward with a given torque."""
+    """Turns its shaft forward with a given torque.
+
+    shaft.torque = -torque(t), as it acts on what is joined.  Source: Torque of the Modelica Standard Library. Limits:
+    any speed; it does not depend on the motion.
+    """
 
     shaft = Rotational("where the torque acts")
     torque = Waveform("N*m", "Torque in time, positive forward.")
@@ -17,7 +21,11 @@ class TorqueSource(Component):
 
 
 class TorqueActuator(Component):
-    """An ideal drive: turns its shaft forward with the torque of a signal."""
+    """An ideal drive: turns its shaft forward with the torque of a signal.
+
+    shaft.torque = -torque, as it acts on what is joined.  Source: Torque of the Modelica Standard Library. Limits: any
+    speed; no lag.
+    """
 
     shaft = Rotational("where the torque acts")
     torque = Input("N*m", "Torque, positive forward.", signed=True)

@@ -12,7 +12,11 @@ SLOW = 1e-3  # of that; where the root of a speed is rounded
 
 
 class HeatCapacity(Component):
-    """A body of one temperature:  capacity dT/dt = heat that flows in. Capacity is mass times specific heat."""
+    """A body of one temperature:  capacity dT/dt = heat that flows in. Capacity is mass times specific heat.
+
+    Source: calorimetry; a lumped body, e.g. Incropera and DeWitt, Fundamentals of Heat and Mass Transfer. Limits: one
+    temperature, which is fair while conductance inside is ten times that outside (Biot number below 0.1).
+    """
 
     port = Thermal("the body")
     capacity = Parameter("J/K", "Heat per kelvin.", above=0)
@@ -33,7 +37,11 @@ class HeatCapacity(Component):
 
 
 class FixedTemperature(Component):
-    """Keeps its port at a temperature, at any heat flow: the air, the sea."""
+    """Keeps its port at a temperature, at any heat flow: the air, the sea.
+
+    port.temperature = temperature,  and `heat` is what goes out.  Source: definition. Limits: it does not warm,
+    whatever it takes.
+    """
 
     port = Thermal("the surroundings")
     temperature = Parameter("K", "Temperature.", default=ROOM, above=0)
@@ -53,7 +61,10 @@ class FixedTemperature(Component):
 
 
 class HeatConductor(Component):
-    """heat = conductance (T_a - T_b),  from a to b. Of a wall the conductance is conductivity area/thickness."""
+    """heat = conductance (T_a - T_b),  from a to b. Of a wall the conductance is conductivity area/thickness.
+
+    Source: Fourier's law. Limits: no heat is stored; the conductance does not depend on temperature.
+    """
 
     a, b = Thermal("one side"), Thermal("the other side")
     conductance = Parameter("W/K", "Heat per kelvin of difference.", above=0)
@@ -75,6 +86,8 @@ class HeatConvection(Component):
     mm/s and 1e-6 at 1 cm/s.
 
     Source: Pohlhausen 1921; VDI Heat Atlas, G4.
+
+    Limits: no natural convection that grows with the difference; `still` has it at one difference.
     """
 
     a, b = Thermal("the surface"), Thermal("the fluid")
@@ -93,7 +106,11 @@ class HeatConvection(Component):
 
 
 class HeatActuator(Component):
-    """Gives its port the heat of a signal: the `power` of a Resistor, a loss computed by a formula."""
+    """Gives its port the heat of a signal: the `power` of a Resistor, the `loss` of a motor, a formula.
+
+    port.heat = -heat, as it goes out there.  Source: definition. Limits: it warms, however hot the body is; a heat
+    below zero cools.
+    """
 
     port = Thermal("what is warmed")
     heat = Input("W", "Heat.", signed=True)
@@ -107,9 +124,12 @@ class HeatActuator(Component):
 class FrictionLoss(Component):
     """Gives the heat of a contact to two bodies:  heat = friction slip,  `share` of it to b, the rest to a.
 
-    Join `friction` and `slip` with those of a Contact, or `torque` and `speed` with those of what turns. The shares of
-    two halves in contact are as their effusivities, sqrt(conductivity density specific heat). Source: Blok 1937;
-    Carslaw and Jaeger 1959, Conduction of Heat in Solids, section 2.9.
+    Join `friction` and `slip` with those of a Contact, a Clutch, a Brake or a Bearing, or `torque` and `speed` with the
+    torque and the slip of a ShaftFriction. The shares of two halves in contact are as their effusivities,
+    sqrt(conductivity density specific heat). Source: Blok 1937; Carslaw and Jaeger 1959, Conduction of Heat in Solids,
+    section 2.9.
+
+    Limits: heat goes in at once and evenly; a flash temperature at the spots in contact is not there.
     """
 
     a, b = Thermal("the surface"), Thermal("the body")
@@ -127,7 +147,12 @@ class FrictionLoss(Component):
 
 
 class OrificeLoss(Component):
-    """Gives the loss of a flow in a valve, a leak or a motor to a body as heat:  heat = flow drop."""
+    """Gives the loss of a flow to a body as heat:  heat = flow drop, such as those of an Orifice.
+
+    Valves, leaks and motors tell their `loss`, which a HeatActuator takes.
+
+    Source: the first law for a throttle. Limits: all of the loss stays in one body; the oil carries nothing away.
+    """
 
     port = Thermal("what is warmed")
     flow = Input("m^3/s", "Flow.", signed=True)
@@ -140,7 +165,10 @@ class OrificeLoss(Component):
 
 
 class TemperatureSensor(Component):
-    """Reads the temperature of a port and takes no heat; it may feed the `temperature` of a Contact."""
+    """Reads the temperature of a port and takes no heat; it may feed the `temperature` of a Contact.
+
+    temperature = port.temperature.  Source: definition. Limits: exact and without lag; see SignalLag and SampledSensor.
+    """
 
     port = Thermal("the body observed")
     temperature = Output("K", "Temperature.")

@@ -185,6 +185,8 @@ class Stopper(Composite):
 
     The rope sticks to the jaws as in any dry contact; opened, they leave it alone. Limits: the jaws do not tighten by
     the pull of the rope itself; a shark jaw that can only break has a capacity above what the rope bears.
+
+    Source: docs/physics.md, 2.1 (a contact that holds up to a force).
     """
 
     body = Translational("the deck")

@@ -128,11 +128,14 @@ class Idler(WebRoller):
 class NipRoller(WebRoller):
     """A driven roller to which a second one presses the web:  holds least tension (exp(mu wrap) - 1) + mu force.
 
-    The pressed roller turns with the web; add its inertia, by the square of the ratio of radii, to `moment`. Rolling in
-    the cover takes the torque  rolling force radius  beside that of the bearings. The drive is joined to `shaft`.
+    |ahead - behind| <= least tension (exp(mu wrap) - 1) + mu force,  and it slips beyond. The pressed roller turns with
+    the web; add its inertia, by the square of the ratio of radii, to `moment`. Rolling in the cover takes the torque
+    rolling force radius  beside that of the bearings. The drive is joined to `shaft`.
 
     Limits: as of an Idler; the web is not drawn thinner by the nip and has one speed in it. The pressed roller drives
     nothing, so that one face holds.
+
+    Source: docs/physics.md, 4.9.
     """
 
     force = Parameter("N", "Force that presses the rollers together.", least=0)

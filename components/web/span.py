@@ -167,6 +167,9 @@ class WebSpan(FixedSpan):
 
     breaking    on: the web tears at `strength`, or is cut by a signal, and its material may be used up; it then has no
                 tension for the rest of the run. off: it never tears
+
+    Source: docs/physics.md, 4.9; Shelton 1986; Brandenburg 1977. Limits: strain along the web alone, the same over its
+    width; no mass, sag or air; elastic at any time.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "strength": 1e5}
@@ -299,7 +302,9 @@ class MovingTail(Web):
 
     `a` is the rim, as seen from the ship. The rope pulls the body and the place together, each with its tension.
 
-    Source and limits: as of a RopeTail; what the rope on the other side pulls is to be joined with `place` too.
+    What the rope on the other side pulls is to be joined with `place` too. Source: as of a RopeTail.
+
+    Limits: those of a RopeTail.
     """
 
     asked_with = {"stiffness": 1e5, "damping": 1e5, "length": 1e3}

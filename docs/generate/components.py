@@ -26,7 +26,7 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
     types = known_types()
     hidden = innards(types)
     shown = {n: k for n, k in sorted(types.items()) if n not in hidden and k.__module__.startswith("fairlead.")}
-    examples = examples_of(docs, shown)
+    examples = examples_of(shown)
     families: dict[str, list[str]] = {}
     for name, kind in shown.items():
         families.setdefault(record(name, kind)["family"].partition(".")[0], []).append(name)
@@ -39,10 +39,10 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
     return {"components/index.md": "\n".join(_index(families, shown)), **found}
 
 
-def examples_of(docs: Path, names: Iterable[str]) -> dict[str, Path]:
+def examples_of(names: Iterable[str]) -> dict[str, Path]:
     """The shortest netlist of the small ones, else of the bundled models, in which a type occurs."""
     bundled = Path(str(__import__("fairlead.models").models.__file__)).parent
-    small = [*sorted((docs / "examples").glob("*.yaml")), *sorted((bundled / "single_parts").glob("*.yaml"))]
+    small = sorted((bundled / "single_parts").glob("*.yaml"))
     files = [*small, *sorted(bundled.glob("*.yaml"))]
     texts = {file: _with_includes(file) for file in files}
     found = {}
@@ -169,7 +169,7 @@ def _example(name: str, example: Path | None, folder: Path) -> Iterator[str]:
     if example is None:
         return
     yield from ("## Example", "")
-    own = example.parent.name in ("examples", "single_parts")
+    own = example.parent.name == "single_parts"
     place = folder / "examples"
     place.mkdir(parents=True, exist_ok=True)
     if own:

@@ -38,3 +38,23 @@ def test_a_diode_blocks_while_the_capacitor_drains():
     drop = 20 - result["store.voltage"].max()
     assert 0.7 < drop < 1.0  # threshold, and what the charging current takes
     assert result["diode.current"].min() > -1e-4
+
+
+def test_an_amplifier_gives_the_voltage_of_its_signal_less_the_drop_over_its_resistance(simulate):
+    """A coil on it: i = u/(R + inner) (1 - exp(-t (R + inner)/L)), and the current given is that of the coil."""
+    result = simulate("""
+        components:
+          earth: {type: Earth}
+          wanted: {type: SignalSource, value: -9}
+          amplifier: {type: VoltageActuator, inner: 1 ohm}
+          coil: {type: Inductor, inductance: 0.1, resistance: 2 ohm}
+        connections:
+          - [earth.terminal, amplifier.minus, coil.minus]
+          - [amplifier.plus, coil.plus]
+          - [wanted.signal, amplifier.voltage]
+        run: {stop: 0.2 s, accuracy: 1e-7}
+        record: {every: 1 ms, signals: [coil.current, amplifier.current]}
+    """)
+    assert result["coil.current"] == pytest.approx(-9 / 3 * -np.expm1(-result.t * 3 / 0.1), abs=1e-5)
+    assert result["amplifier.current"] == pytest.approx(result["coil.current"], abs=1e-9)
+    assert result.run["energy"]["closure"] < 1e-6

@@ -112,3 +112,64 @@ def test_gas_that_keeps_its_temperature_follows_boyle(simulate):
     """)
     assert result["store.pressure"][-1] == pytest.approx(20e5 * 1e-3 / (1e-3 * 20 / 25 - 4e-4), rel=1e-6)
     assert result.run["energy"]["closure"] < 1e-6
+
+
+def test_what_a_pump_gives_warms_the_block_by_the_losses_of_all_it_flows_through():
+    result = run("warm_oil", **{"run.accuracy": "1e-6"})
+    steady = result.at("block.temperature", 20.0) - result.at("block.temperature", 10.0)
+    assert steady == pytest.approx(result["pump.power"][-1] * 10 / 5000, rel=1e-6)
+    parts = sum(result[f"{name}.loss"][-1] for name in ("relief", "throttle", "check", "gap"))
+    assert parts == pytest.approx(result["pump.power"][-1], rel=1e-6)
+    assert min(result[f"{name}.loss"][-1] for name in ("relief", "throttle", "check", "gap")) > 10
+
+
+LOSSES = """
+    components:
+      supply: {{type: PressureSource, pressure: 20 MPa}}
+      sump: {{type: Tank, pressure: 1 MPa}}
+      part: {{type: {kind}}}
+      {more}
+      fed: {{type: HeatActuator}}
+      body: {{type: HeatCapacity, capacity: 500 J/K}}
+    connections:
+      {joins}
+      - [part.loss, fed.heat]
+      - [fed.port, body.port]
+    run: {{stop: 2 s, accuracy: 1e-6}}
+    record: {{signals: [body.temperature, part.loss]}}
+"""
+BETWEEN = "- [supply.port, part.a]\n      - [part.b, sump.port]"
+DROP = 19e6
+
+
+@pytest.mark.parametrize(
+    ("kind", "more", "joins", "loss"),
+    [
+        ("Leak, conductance: 1e-12", "", BETWEEN, 1e-12 * DROP**2),
+        ("FlowControlValve, setting: 6 L/min", "", BETWEEN, 1e-4 * DROP),
+        ("HydraulicMotor, displacement: 20 cm^3/rev, internal_leakage: 1e-12, external_leakage: 2e-13",
+         "jammed: {type: Housing}", f"{BETWEEN}\n      - [part.shaft, jammed.shaft]",
+         1e-12 * DROP**2 + 2e-13 * (20e6**2 + 1e6**2)),
+        ("ServoValve, rated_flow: 12 L/min, rated_drop: 9.5 MPa, effects: {valve_dynamics: off}",
+         "asked: {type: SignalSource, value: -0.5}\n      pipe: {type: Volume, volume: 1 L, pressure: 10.5 MPa}",
+         "- [supply.port, part.supply]\n      - [part.tank, sump.port]\n      - [part.a, part.b, pipe.port]\n"
+         "      - [asked.signal, part.command]", 1e-4 * DROP),
+    ],
+    ids=["leak", "flow valve", "motor", "servo valve"],
+)  # fmt: skip
+def test_a_part_tells_as_loss_what_no_work_is_made_of(simulate, kind, more, joins, loss):
+    """Flow times drop; of a stalled motor what leaks across and out; of a valve half open both lands in a row."""
+    result = simulate(LOSSES.format(kind=kind, more=more, joins=joins))
+    assert result["part.loss"][-1] == pytest.approx(loss, rel=1e-4)
+    assert result["body.temperature"][-1] - result["body.temperature"][0] == pytest.approx(2 * loss / 500, rel=1e-3)
+
+
+@pytest.mark.parametrize(("side", "way"), [("cap", 1), ("rod", -1)])
+def test_a_rigid_chamber_moves_as_fast_as_oil_comes_through_its_orifice(side, way):
+    """m dv/dt = A (p - drop), drop = (A v/K)^2 far above p_cr: v = v_end tanh(t/tau), v_end = K sqrt(p)/A."""
+    result = run("rigid_chamber", **{"ram.side": side, "orifice.critical_pressure": "1 Pa"})
+    k, area, pressure = 0.62 * 2e-6 * np.sqrt(2 / 870), 10e-4, 5e6
+    end = k * np.sqrt(pressure) / area
+    tau = 100 * end / (area * pressure)
+    assert result["load.v"] == pytest.approx(way * end * np.tanh(result.t / tau), abs=2e-4 * end)
+    assert result["ram.pressure"][-1] == pytest.approx(0, abs=pressure * 1e-3)

@@ -99,3 +99,14 @@ def test_a_small_load_is_told_and_what_is_told_makes_it_come_out_as_the_large_on
     small, said = travel(simulate, name, 3e-6, f", {given[1]}: {given[2]}")
     assert not said
     assert small == pytest.approx(right, rel=1e-2)
+
+
+@pytest.mark.parametrize("s", [1e-6, 1e-10])
+@pytest.mark.parametrize("name", SCENES)
+def test_with_a_corner_as_much_smaller_a_part_of_any_size_rubs_alike(simulate, name, s) -> None:
+    """The contacts inside begin to press at a thousandth of the corner, not at 1e-6 N."""
+    unit = "N" if name in ("LeadScrew", "Worm") else "N*m"
+    right, _ = travel(simulate, name, 1.0, f", round_off: 1e-6 {unit}")
+    small, said = travel(simulate, name, s, f", round_off: {1e-6 * s} {unit}")
+    assert not said
+    assert small == pytest.approx(right, rel=1e-4)

@@ -60,6 +60,21 @@ def test_an_integral_stays_at_its_limit_and_leaves_when_the_value_turns(high):
     assert result["integral.signal"].max() <= top + 1e-6
 
 
+@pytest.mark.parametrize("engine", ["rodas", "stepping", "ida"])
+def test_an_integral_that_is_reset_begins_anew(engine):
+    """It rises by 3/s from 0.25 to 1, and falls from there as 0.2 + 0.8 exp(-t/0.1 ms): 16 times nearer to 0.2."""
+    if engine == "ida":
+        pytest.importorskip("sksundae")
+    result = run("sawtooth", **{"run.engine": engine})
+    table = result.switches().to_pandas().set_index(["component", "zone_to"])
+    resets = table.loc[("ramp", "returning")]
+    assert resets["first"] == pytest.approx(0.8 / 3, rel=1e-6)
+    assert resets["last"] - resets["first"] == pytest.approx(6 * (0.25 + 1e-4 * np.log(16)), rel=1e-5)
+    assert resets["count"] == 7
+    given = result.at("dose.signal", np.array([0.1, 0.45, 0.495, 0.6, 0.9, 1.1, 1.6]))
+    assert given == pytest.approx([0.3, 0.5, 0, 0.3, 0.5, 0.3, 0.3], abs=1e-6)
+
+
 def test_filters_answer_as_their_frequency_response_says():
     result = run("memory_of_signals", **{"run.stop": "4 s"})
     settled, w = result.t > 3, 2 * np.pi

@@ -29,6 +29,50 @@ def test_losses_warm_bodies_as_their_balance_says(engine):
     assert result.run["energy"]["closure"] < 1e-5  # heat is told once, where it is made
 
 
+def test_a_motor_and_a_clutch_warm_bodies_by_all_that_they_lose():
+    """A motor without load loses what its rotor gains, J (U/K)^2/2; a clutch J1 J2/(J1 + J2) dw^2/2."""
+    result = fairlead.load(SCENE.with_name("warm_drive.yaml"), set={"run.accuracy": "1e-6"}).run(out=None)
+    assert result.ok
+    gained = 2e-3 * (48 / 0.12) ** 2 / 2
+    assert result["winding.temperature"][-1] == pytest.approx(ROOM + gained / 60, abs=1e-4)
+    rubbed = 2 * 1 / 3 * 60**2 / 2
+    assert result["disc.temperature"][-1] == pytest.approx(ROOM + 0.4 * rubbed / 500, abs=1e-6)
+    assert result["cover.temperature"][-1] == pytest.approx(ROOM + 0.6 * rubbed / 1500, abs=1e-6)
+    assert result["wheel.speed"][-1] == pytest.approx(40, rel=1e-9)
+
+
+LOSSES = """
+    components:
+      coil: {{type: {motor}}}
+      asked: {{type: SignalSource, value: 5}}
+      jammed: {{type: Housing}}
+      fed: {{type: HeatActuator}}
+      winding: {{type: HeatCapacity, capacity: 60 J/K}}
+    connections:
+      - [asked.signal, coil.{asked}]
+      - [coil.shaft, jammed.shaft]
+      - [coil.loss, fed.heat]
+      - [fed.port, winding.port]
+    run: {{stop: 1 s, accuracy: 1e-6}}
+    record: {{signals: [winding.temperature, coil.current]}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("motor", "asked", "current"),
+    [
+        ("DcDrive, resistance: 2 ohm, constant: 0.1, inductance: 1e-6, most_voltage: 48, most_current: 9", "command",
+         2.5),
+        ("PmMotor, constant: 0.1, resistance: 2 ohm, lag: 1e-6", "wanted", 5),
+        ("PmMotor, constant: 0.1, resistance: 2 ohm, lag: 1e-6, effects: {winding: on}", "wanted", 5),
+        ("PmMotor, constant: 0.1, resistance: 2 ohm, effects: {current_loop: off}", "wanted", 5),
+    ],
+)  # fmt: skip
+def test_a_stalled_motor_warms_its_winding_by_r_i_squared(simulate, motor, asked, current):
+    result = simulate(LOSSES.format(motor=motor, asked=asked))
+    assert result["winding.temperature"][-1] - ROOM == pytest.approx(2 * current**2 / 60, rel=1e-4)
+
+
 def test_a_body_that_friction_warms_slips_more_easily(simulate):
     """Thermal port and FrictionHeat are two formulations of one body: capacity dT/dt = share T v - loss (T - T0)."""
     scene = """

@@ -10,7 +10,7 @@ from fairlead.fmu import export
 from tests.fmu.exported import fmpy, needs_compiler, slave
 
 pytestmark = pytest.mark.slow
-EXAMPLES = pathlib.Path(__file__).parents[2] / "docs" / "examples"
+EXAMPLES = pathlib.Path(__file__).parents[2] / "models" / "single_parts"
 SCENES = {
     "belt": ("belt", "block.*", 0.02, 100),
     "hundred_blocks": ("hundred_blocks", "rod.block[?].x", 0.05, 40),

@@ -17,7 +17,7 @@ OLD = DRILL.replace("run: {stop: 10 s}", 'run: {stop: 0.1 s}\nlimits: {"bit.turn
     "[bit.speed, table.speed, string.torque]", "[bit.rate, table.rate, bit.turned]"
 )
 
-CYLINDER = pathlib.Path(__file__).parents[2] / "docs" / "examples" / "cylinder_with_valve.yaml"
+CYLINDER = pathlib.Path(__file__).parents[2] / "models" / "single_parts" / "cylinder_with_valve.yaml"
 
 OWN = '''\
 from fairlead.component import Composite, Expansion, Output, Rotational
