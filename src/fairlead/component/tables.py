@@ -14,6 +14,7 @@ import io
 import itertools
 import math
 import pathlib
+import re
 from collections.abc import Callable, Iterator, Mapping, Set
 from typing import Any
 
@@ -24,7 +25,7 @@ from fairlead.component.piecewise import (
     monotone_cubic_table,
 )  # fmt: skip
 from fairlead.errors import did_you_mean, listing, shown
-from fairlead.quantities import NUMBER, QuantityError, written
+from fairlead.quantities import NUMBER, QuantityError, article, fits, kind, parse_unit, written
 
 WORDS = {"kind": ("linear", "cubic"), "beyond": ("constant", "line")}
 CALLED = {"omega": ("frequency",), "period": ("every", "over"), "width": ("wide",), "duration": ("over", "stay"),
@@ -36,6 +37,10 @@ MOST_BYTES = 10_000_000
 MOST_KEPT = 16
 """Tables of files that are kept as they were read; cases of a sweep or a fit ask for the same ones again and again."""
 CSV_FORM = "Write two numbers in a row, a comma between them and a point in them: 0.5,12.3"
+MINUS = str.maketrans("\u2212\u2010\u2011\u2012\u2013\uff0d", "------")
+"""What prints as a minus and is none."""
+IN_BRACKETS = re.compile(r"(?P<name>[^\[\](){}]*)(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
+"""A name with its unit in brackets."""
 # Where a number of a table stands: the path to it in the netlist, and what a message says before it.
 Place = tuple[tuple[str | int, ...], str]
 
@@ -90,7 +95,7 @@ def points(value: Any, x_unit: str, y_unit: str, x_name: str, folder: pathlib.Pa
             digest = hashlib.blake2b(data).digest()
             key = (digest, str(value["file"]), repr(value.get("columns")), x_unit, y_unit, x_name, *words.values())
             if key not in _KEPT:
-                rows, at = _from_file(data, value["file"], value.get("columns"))
+                rows, at = _from_file(data, value["file"], value.get("columns"), (x_unit, y_unit))
                 _keep(key, _shaped(rows, at, x_unit, y_unit, x_name, words))
             return _KEPT[key]
         rows, at = _columns(value, x_name), functools.partial(_column, (x_name, "y"))
@@ -162,43 +167,76 @@ def _bytes(name: Any, folder: pathlib.Path) -> bytes:
 
 
 def _from_file(
-    data: bytes, name: Any, columns: Any = None
+    data: bytes, name: Any, columns: Any = None, units: tuple[str, str] = ("1", "1")
 ) -> tuple[list[list[Any]], Callable[[int, int], Place]]:
     """Two columns of a CSV file, and where each number stands.
 
     `columns` names the two in the first row; without it the file has two.
 
-    A first row in which nothing begins with a number is a header. Nothing is passed over but that, comments (#) and
-    empty rows: what is not two numbers in a row is refused by the number of its row.
+    A first row of names is a header, also with units: `t [ms]`, `force (kN)`. Nothing is passed over but that, comments
+    (#) and empty rows: what is not two numbers in a row is refused by the number of its row.
     """
     said = f" = {shown(name)}, row"
-    found, lines, first = [], [], True
+    found, lines, own = [], [], ["", ""]
     picked: list[int] | None = None
-    for line, cells in _cells(data, said):
-        if columns is not None and picked is None:
+    for k, (line, cells) in enumerate(_cells(data, said)):
+        if k == 0 and columns is not None:
             picked = _picked(columns, cells, f"{said} {line}")
-            first = False
-            continue
         if picked is not None and len(cells) > max(picked):
             cells = [cells[k] for k in picked]
-        if first and not any(NUMBER.match(cell) for cell in cells):
-            first = False  # it was the header
+        if k == 0 and (columns is not None or _are_names(cells)):
+            own = [_own_unit(*told, f"{said} {line}") for told in zip(cells, units, strict=False)] or own
             continue
-        first = False
-        found.append(_pair(cells, f"{said} {line}"))
+        pair = _pair(cells, f"{said} {line}")
+        found.append([f"{number!r} {unit}" if unit else number for number, unit in zip(pair, own, strict=False)])
         lines.append(line)
     return found, lambda k, _: (("file",), f"{said} {lines[k]}: ")
 
 
+def _are_names(cells: list[str]) -> bool:
+    """True for a header: words that differ, none of them a number to anyone: not nan, nor with a printed minus."""
+    return len(set(cells)) == len(cells) and all(_is_name(cell) for cell in cells)
+
+
+def _is_name(cell: str) -> bool:
+    try:
+        float(cell.translate(MINUS))
+    except ValueError:
+        return any(letter.isalpha() for letter in cell) and not NUMBER.match(cell.translate(MINUS))
+    return False
+
+
+def _own_unit(name: str, unit: str, said: str) -> str:
+    """The unit that a name in the first row gives its column in brackets; "" without one, and if it is that of SI.
+
+    In square brackets nothing else can be meant; in round ones what is no unit is a remark. Raises TableError.
+    """
+    told = IN_BRACKETS.fullmatch(name)
+    if told is None or (own := told["square"] or told["round"]) == "-":
+        return ""
+    try:
+        given = parse_unit(own)
+    except QuantityError as error:
+        if told["square"] is None:
+            return ""
+        what = f"{said}: {shown(name)} is no column with a unit: {error.what}"
+        raise TableError(what, "Write a unit in the brackets, or none at all.", ("file",)) from None
+    if not fits(given.dimension, parse_unit(unit).dimension):
+        what = f"{said}: {shown(name)} is a column of another kind: {article(kind(unit))} is wanted here"
+        raise TableError(what, "Are the columns in this order? Else leave out the brackets.", ("file",))
+    return "" if own == unit else own
+
+
 def _picked(columns: Any, head: list[str], said: str) -> list[int]:
-    """Where two columns stand, by the names in the first row. Raises TableError."""
+    """Where two columns stand, by the names in the first row, with or without their units. Raises TableError."""
     if not isinstance(columns, list) or len(columns) != 2:
         raise TableError(f" = {shown(columns)} is no pair", "Write columns: [time, force].", ("columns",))
+    bare = [told["name"].strip() if (told := IN_BRACKETS.fullmatch(name)) else name for name in head]
     for name in columns:
-        if name not in head:
+        if name not in head and bare.count(name) != 1:
             what = f" = {shown(name)} is no column of it. {did_you_mean(str(name), head)}".rstrip()
             raise TableError(what, f"{said} names {listing(head)}.", ("columns",))
-    return [head.index(name) for name in columns]
+    return [head.index(name) if name in head else bare.index(name) for name in columns]
 
 
 def _cells(data: bytes, said: str) -> Iterator[tuple[int, list[str]]]:
@@ -243,7 +281,8 @@ def _hint(cell: str) -> str:
     if begins is None:
         return ""
     comma = cell[begins.end() :].startswith(",")
-    return "A decimal comma is no point. " if comma else "Numbers of a file are in SI and have no unit. "
+    in_header = "Numbers of a file are in SI, or in the unit in brackets behind the name in the first row. "
+    return "A decimal comma is no point. " if comma else in_header
 
 
 def file_inside(folder: pathlib.Path, name: Any, ending: str) -> pathlib.Path:
@@ -264,6 +303,9 @@ def _inside(folder: pathlib.Path, name: str, ending: str = ".csv") -> pathlib.Pa
         raise TableError(
             f" = {shown(name)} lies outside the folder of the netlist", "Put the file beside the netlist.", ("file",)
         )
+    if path.exists() and not path.is_file():
+        what = "a folder" if path.is_dir() else "no ordinary file"
+        raise TableError(f" = {shown(name)} is {what}", "Write the name of a file.", ("file",))
     if not path.is_file():
         beside = [file.name for file in folder.iterdir() if file.suffix == ending]
         near = did_you_mean(path.name, beside)
