@@ -171,13 +171,18 @@ def distance_to_look(run, point):
 
 
 @compiled
-def all_decrease(problem, run, point, events):
-    """True if every guard in `fired` decreases along (y', y'') from the point, as it was settled."""
+def none_rises(problem, run, point, events):
+    """True if no guard in `fired` rises along (y', y'') from the point, as it was settled."""
     guards = events.guards
     look_ahead(problem, run, point, events)
     g, probe = reals(guards.at_g, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
     tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
-    decreasing = True
+    known_to = place_rounding(problem, point) if problem.n_met_guards > 0 else 0.0
+    met = indices(problem.at_met_guard, problem.n_met_guards)
+    for i in met:
+        if abs(probe[i] - g[i]) <= known_to:
+            probe[i] = g[i]
+    rises = False
     for k in range(guards.n_fired):
-        decreasing = decreasing and g[fired[k]] - probe[fired[k]] > RISE * tolerance[fired[k]]
-    return decreasing
+        rises = rises or probe[fired[k]] - g[fired[k]] > RISE * tolerance[fired[k]]
+    return not rises
