@@ -105,6 +105,12 @@ class System:
     timed_tables: list[PlacedTable] = field(repr=False)  # what is given in time
     narrows: Callable[[Any], Any] | None = field(default=None, repr=False)  # see subsystem.py; None for a part
 
+    def __post_init__(self) -> None:
+        """Its arrays are read by all runs, in all threads; those of an Instance are its own."""
+        for value in vars(self).values():
+            if type(self) is System and isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
     @property
     def n(self) -> int:
         """How many unknowns."""
