@@ -116,7 +116,7 @@ def test_with_a_corner_as_much_smaller_a_part_of_any_size_rubs_alike(simulate, n
     assert small == pytest.approx(right, rel=1e-4)
 
 
-@pytest.mark.parametrize("name", ("LeadScrew", "Worm", "Gearbox"))
+@pytest.mark.parametrize("name", ["LeadScrew", "Worm", "Gearbox"])
 def test_a_part_that_turns_evenly_and_carries_nothing_is_not_told(simulate, name) -> None:
     """What a load of nothing is made of by rounding is no small load. The others are never without one."""
     moving = re.sub(r"(torque|force): \"[^\"]+\"", r"\1: 0", SCENES[name].format(s=1.0, more=""))
