@@ -47,8 +47,9 @@ class Again:
     def read(self, entry: Entry, kind: type[Declared], probe: Assembly) -> None:
         """An entry that was given other values, as the empty assembly `probe` reads it. Raises Unlike."""
         faults: list[Fault] = []
-        was = self.old.netlist.components[entry.name].parameters
-        if dimensions_of_levels(kind, was) != dimensions_of_levels(kind, entry.parameters):
+        known = dimensions_of_levels(kind, self.old.netlist.components[entry.name].parameters)
+        levels = dimensions_of_levels(kind, entry.parameters)
+        if any(known.get(name) != dimension for name, dimension in levels.items()):  # asked of the signal joined there
             raise Unlike
         values = read_entry(probe, kind, entry.parameters, entry.name, entry.where, faults)
         if faults or values is None:
