@@ -44,8 +44,10 @@ class DeadBandPid(Composite):
     reference = Input("1", "Value wanted.", signed=True)
     measured = Input("1", "Value measured.", signed=True)
     ahead = Input("1", "Feed-forward input, added to the command times `ahead_gain`.", 0.0, signed=True)
-    band = Parameter("1", "Size of the error above which it acts, in SI units.", above=0)
-    inner = Parameter("1", "Size below which it rests again; half the band when not given.", default=None, above=0)
+    band = Parameter("1", "Size of the error above which it acts.", above=0, like="measured")
+    inner = Parameter(
+        "1", "Size below which it rests again; half the band when not given.", default=None, above=0, like="measured"
+    )
     gain, integral_time = OF_PID["gain"], OF_PID["integral_time"]
     derivative_time, filter_time = OF_PID["derivative_time"], OF_PID["filter_time"]
     ahead_gain, low, high = OF_PID["ahead_gain"], OF_PID["low"], OF_PID["high"]

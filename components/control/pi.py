@@ -137,7 +137,7 @@ class PiController(Pi):
     period = Parameter("s", "T_s.", default=0.01, above=0)
     smoothing = Parameter("s", "Lag of the command, when it works continuously.", default=None, above=0)
     delay = Choice(("sample", "none"), "Whether the value measured is one sample old.", default="sample")
-    initial = Parameter("1", "Value measured before the start.", default=0.0)
+    initial = Parameter("1", "Value measured before the start.", default=0.0, like="measured")
     seen = Discrete("1", "Value measured one sample ago.", start="initial")
     summed = Discrete("1", "I.")
     applied = Discrete("1", "Command.")

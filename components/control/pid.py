@@ -39,7 +39,9 @@ class PidLaw(Component, abstract=True):
     low = Parameter("1", "Smallest command; no limit when not given.", default=None)
     high = Parameter("1", "Largest command; no limit when not given.", default=None)
     tracking_time = Parameter("s", "T_t of the anti-windup; half of T_i when not given.", default=None, above=0)
-    initial = Parameter("1", "Value measured before the start, for the derivative.", default=0.0, physics=False)
+    initial = Parameter(
+        "1", "Value measured before the start, for the derivative.", default=0.0, physics=False, like="measured"
+    )
     command = Output("1", "Command.")
     error = Output("1", "Reference less measured value.")
     integral = Output("1", "I, what the integral has gathered.", role="integral")

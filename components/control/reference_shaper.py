@@ -18,10 +18,10 @@ class ReferenceShaper(Component):
     period = Parameter("s", "Time between samples.", default=0.01, above=0)
     most = Parameter("1/s", "Largest rate.", above=0)
     jerk = Parameter("1/s^2", "Largest rate of the rate; no limit when not given.", default=None, above=0)
-    initial = Parameter("1", "Value at the start.", default=0.0)
+    initial = Parameter("1", "Value at the start.", default=0.0, like="target")
     value = Discrete("1", "Value.", start="initial")
     rate = Discrete("1/s", "Its rate.")
-    reference = Output("1", "The value.")
+    reference = Output("1", "The value.", like="target")
     slope = Output("1/s", "Its rate.")
 
     def law(p, value, rate):

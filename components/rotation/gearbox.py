@@ -16,12 +16,12 @@ class LoadLoss(Component):
     round_off = Parameter("N*m", "Torque over which the corner at no load is rounded off.", above=0)
     carried = Input("N*m", "Torque carried.", signed=True)
     loss = Output("N", "Friction at a radius of 1 m.")
-    pressed = Output("N*m", "The torque carried, without sign.", rounded_by="round_off")
+    pressed = Output("N*m", "The torque carried.", rounded_by="round_off")
 
     def law(p, carried):
         """In proportion to the load."""
         size = sqrt(carried**2 + p.round_off**2) - p.round_off
-        return Law(loss=(1 - p.efficiency) * size, pressed=size)
+        return Law(loss=(1 - p.efficiency) * size, pressed=carried)
 
 
 class Gearbox(Composite):

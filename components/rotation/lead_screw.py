@@ -56,12 +56,12 @@ class FlankLoad(Component):
     round_off = Parameter("N", "Axial force over which the corner at no load is rounded off.", above=0)
     axial = Input("N", "Axial part of the force that presses them.", signed=True)
     normal = Output("N", "Normal force.")
-    pressed = Output("N", "Axial force that presses them, without sign.", rounded_by="round_off")
+    pressed = Output("N", "Axial force that presses them, with a sharp corner.", rounded_by="round_off")
 
     def law(p, axial):
         """The flank leans by its slope and by half the angle of the thread."""
         pressed = p.preload + sqrt(axial**2 + p.round_off**2) - p.round_off
-        return Law(normal=pressed / (cos(p.slope) * cos(p.half_angle)), pressed=pressed)
+        return Law(normal=pressed / (cos(p.slope) * cos(p.half_angle)), pressed=p.preload + abs(axial))
 
 
 class Screw(Composite, abstract=True):

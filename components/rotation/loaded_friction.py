@@ -22,12 +22,14 @@ class ToothLoad(Component):
     round_off = Parameter("N*m", "Torque over which the corner at no load is rounded off.", above=0)
     motor = Input("N*m", "Torque of the motor.", signed=True)
     load = Input("N*m", "Torque of the load, positive when it turns the shaft forward.", signed=True)
-    level = Output("N", "Friction level at a radius of 1 m.", rounded_by="round_off")
+    level = Output("N", "Friction level at a radius of 1 m.")
+    pressed = Output("N*m", "The level, with a sharp corner.", rounded_by="round_off")
 
     def law(p, motor, load):
         """Motor and load that pull against each other press the teeth."""
         pressed = p.by_motor * motor - p.by_load * load
-        return Law(level=p.dry + sqrt(pressed**2 + p.round_off**2) - p.round_off)
+        level = p.dry + sqrt(pressed**2 + p.round_off**2) - p.round_off
+        return Law(level=level, pressed=p.dry + abs(pressed))
 
 
 class LoadedFriction(Composite):

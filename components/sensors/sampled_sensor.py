@@ -28,10 +28,10 @@ class SampledSensor(Controller):
     passes = "value"
     value = Input("1", "Measured quantity.", signed=True)
     sampling = Effect("The sensor works in samples; off: its signal is the value at every time.", off=PerfectSignal)
-    noise = Parameter("1", "Standard deviation of the noise, in SI units of the value.", default=None, above=0)
-    resolution = Parameter("1", "Smallest step of the reading, in SI units of the value.", default=None, above=0)
+    noise = Parameter("1", "Standard deviation of the noise.", default=None, above=0, like="value")
+    resolution = Parameter("1", "Smallest step of the reading.", default=None, above=0, like="value")
     seed = Count("Seed of the noise.", default=1, least=0)
-    signal = Output("1", "Reading of the sensor.")
+    signal = Output("1", "Reading of the sensor.", like="value")
 
     def begin(self):
         """No sample is taken yet."""

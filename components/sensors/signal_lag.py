@@ -7,7 +7,7 @@ class PerfectSignal(Component):
     """Tells what it reads."""
 
     value = Input("1", "Measured quantity.", signed=True)
-    signal = Output("1", "Reading of the sensor.")
+    signal = Output("1", "Reading of the sensor.", like="value")
 
     def law(p, value):
         """At once."""
@@ -24,9 +24,9 @@ class SignalLag(Component):
     value = Input("1", "Measured quantity.", signed=True)
     sensor_lag = Effect("The sensor takes its time.", off=PerfectSignal)
     lag = Parameter("s", "Time constant.", above=0)
-    initial = Parameter("1", "Reading at the start.", default=0.0)
+    initial = Parameter("1", "Reading at the start.", default=0.0, like="value")
     told = State("1", "Reading of the sensor.", start="initial", nominal=0.1)
-    signal = Output("1", "Reading of the sensor.")
+    signal = Output("1", "Reading of the sensor.", like="value")
 
     def law(p, value, told):
         """First order."""

@@ -30,7 +30,7 @@ class SignalSelect(Component):
     a = Input("1", "One signal.", signed=True)
     b = Input("1", "The other.", signed=True)
     pick = Choice(("greatest", "least"), "Which one passes.", default="greatest")
-    signal = Output("1", "The one that passes.")
+    signal = Output("1", "The one that passes.", like="a")
     zones = Zones("a_passes", "b_passes")
     saturates_in = {"a": ("b_passes",), "b": ("a_passes",)}
 
@@ -62,7 +62,7 @@ class SignalSize(Component):
     """
 
     value = Input("1", "What comes in.", signed=True)
-    signal = Output("1", "Its size.")
+    signal = Output("1", "Its size.", like="value")
     zones = Zones("positive", "negative", forward=["positive"], backward=["negative"])
     exempt = {"odd": "The size of a signal is even."}
 

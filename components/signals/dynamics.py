@@ -108,7 +108,7 @@ class FilteredDerivative(Component):
 
     value = Input("1", "What is differentiated.", signed=True)
     lag = Parameter("s", "Time constant of the filter.", above=0)
-    initial = Parameter("1", "Value before the start.", default=0.0, physics=False)
+    initial = Parameter("1", "Value before the start.", default=0.0, physics=False, like="value")
     slow = State("1", "The value, filtered.", start="initial", nominal=0.1)
     signal = Output("1/s", "The rate.")
     filtered = Output("1", "The value, filtered.")

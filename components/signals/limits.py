@@ -12,9 +12,9 @@ class Limiter(Component):
 
     asked_with = {"low": -1.0, "high": 1.0}
     value = Input("1", "What comes in.", signed=True)
-    low = Parameter("1", "Smallest value, in SI of what comes in.")
-    high = Parameter("1", "Largest value.")
-    signal = Output("1", "The value within its limits.")
+    low = Parameter("1", "Smallest value.", like="value")
+    high = Parameter("1", "Largest value.", like="value")
+    signal = Output("1", "The value within its limits.", like="value")
     zones = Zones("within", "above", "below")
     saturates_in = ("above", "below")
 
@@ -56,7 +56,7 @@ class DeadZone(Component):
     """
 
     value = Input("1", "What comes in.", signed=True)
-    band = Parameter("1", "Half the width that is not heard, in SI of what comes in.", above=0)
+    band = Parameter("1", "Half the width that is not heard.", above=0, like="value")
     gain = Parameter("1", "Factor beyond the band, in SI of both.", default=1.0)
     signal = Output("1", "What is heard.")
     zones = Zones("silent", "above", "below", forward=["above"], backward=["below"])
@@ -95,9 +95,11 @@ class DeadBand(Component):
 
     asked_with = {"inner": 0.2, "band": 0.5}
     value = Input("1", "What comes in.", signed=True)
-    band = Parameter("1", "Size of the value from which on it is heard, in SI of what comes in.", above=0)
-    inner = Parameter("1", "Size below which it is lost again; half the band when not given.", default=None, above=0)
-    signal = Output("1", "What is heard.")
+    band = Parameter("1", "Size of the value from which on it is heard.", above=0, like="value")
+    inner = Parameter(
+        "1", "Size below which it is lost again; half the band when not given.", default=None, above=0, like="value"
+    )
+    signal = Output("1", "What is heard.", like="value")
     zones = Zones("silent", "above", "below", forward=["above"], backward=["below"])
 
     def check(p):

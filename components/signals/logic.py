@@ -55,7 +55,7 @@ class LogicGate(Component):
     a = Input("1", "One signal.", signed=True)
     b = Input("1", "The other.", signed=True)
     gate = Choice(("and", "or", "xor"), "What must hold.")
-    level = Parameter("1", "Above it a signal is on.", default=0.5)
+    level = Parameter("1", "Above it a signal is on.", default=0.5, like="a")
     signal = Output("1", "1 while it holds.")
     inverse = Output("1", "1 while it does not.")
     zones = Zones("neither", "a_alone", "b_alone", "both")

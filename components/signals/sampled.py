@@ -13,7 +13,7 @@ class SampleHold(Component):
     value = Input("1", "What is sampled.", signed=True)
     period = Parameter("s", "Time between samples.", above=0)
     kept = Discrete("1", "The value at the last sample.")
-    signal = Output("1", "What is held.")
+    signal = Output("1", "What is held.", like="value")
 
     def law(p, kept):
         """Held between samples."""
@@ -36,8 +36,10 @@ class SignalDelay(Controller):
 
     value = Input("1", "What comes in.", signed=True)
     samples = Count("Delay in samples.", default=1)
-    initial = Parameter("1", "Signal before the first value has come through.", default=0.0, physics=False)
-    signal = Output("1", "Output signal.", start="initial")
+    initial = Parameter(
+        "1", "Signal before the first value has come through.", default=0.0, physics=False, like="value"
+    )
+    signal = Output("1", "Output signal.", start="initial", like="value")
 
     def begin(self):
         """Nothing is under way."""

@@ -15,8 +15,10 @@ class Relay(Component):
     exempt = {"odd": "A relay is not symmetric unless its levels are."}
     asked_with = {"lower": -0.5, "upper": 0.5}
     value = Input("1", "What is watched.", signed=True)
-    upper = Parameter("1", "Value at which it switches on, in SI of what comes in.")
-    lower = Parameter("1", "Value at which it switches off; that of `upper` when not given.", default=None)
+    upper = Parameter("1", "Value at which it switches on.", like="value")
+    lower = Parameter(
+        "1", "Value at which it switches off; that of `upper` when not given.", default=None, like="value"
+    )
     on = Parameter("1", "Signal while it is on.", default=1.0)
     off = Parameter("1", "Signal while it is off.", default=0.0)
     begins_on = Choice(("no", "yes"), "Whether it is on at first, where the value starts between the levels.",
@@ -59,8 +61,8 @@ class SignalSwitch(Component):
     a = Input("1", "Passes while the control is above its level.", signed=True)
     b = Input("1", "Passes otherwise.", 0.0, signed=True)
     control = Input("1", "Chooses.", signed=True)
-    level = Parameter("1", "Level of the control.", default=0.5)
-    signal = Output("1", "The one that passes.")
+    level = Parameter("1", "Level of the control.", default=0.5, like="control")
+    signal = Output("1", "The one that passes.", like="a")
     zones = Zones("b_passes", "a_passes")
 
     @zone("b_passes", "a_passes")

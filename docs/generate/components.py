@@ -175,7 +175,7 @@ def _example(name: str, example: Path | None, folder: Path) -> Iterator[str]:
     if own:
         wiring(example, place)
         picture(example, place)
-        yield from (f"A file `{example.name}`, run by `fairlead run {example.name}`:", "",
+        yield from (f"`fairlead run single_parts/{example.stem}` runs this netlist:", "",
                     *fence("yaml", example.read_text(encoding="utf-8")),
                     f"![Wiring of {example.stem}](../examples/{example.stem}_wiring.svg)", "",
                     f"![Signals of {example.stem}](../examples/{example.stem}.png)", "")  # fmt: skip

@@ -62,8 +62,7 @@ def pages(docs: Path, folder: Path) -> dict[str, str]:
     for below, heading in FOLDERS.items():
         lines += [f"## {heading}", ""]
         for model in sorted(folder_of.glob(f"{below}/*.yaml")):
-            file = f"{below}/{model.stem}" if below == "machines" else f"models/{below}/{model.name}"
-            command = COUPLED if below == "coupled" else f"fairlead run {file} --report"
+            command = COUPLED if below == "coupled" else f"fairlead run {below}/{model.stem} --report"
             lines += _entry(model, folder / "gallery", command, level="###")
     return {"gallery.md": "\n".join(lines)}
 

@@ -110,8 +110,10 @@ def si(value: object, unit: str) -> float:
     return _finite(number * (given.factor if given else 1.0), unit, value)
 
 
-def written(value: object, unit: str, *, size: bool = False) -> float:
+def written(value: object, unit: str, *, size: bool = False, level: bool = False) -> float:
     """What a netlist gives for a quantity, or a `size` above zero. Raises QuantityError as `computable` does.
+
+    A `level` may have any unit: what it must measure is known once a signal is joined.
 
     A bare number in quotes is refused too: it is a text. Who wants a number writes no quotes, and who wants it in some
     unit writes that.
@@ -119,6 +121,8 @@ def written(value: object, unit: str, *, size: bool = False) -> float:
     if isinstance(value, str) and NUMBER.fullmatch(value.strip()):
         own = "" if unit == "1" else f", or give its unit too: {value.strip()} {unit}"
         raise QuantityError(f"'{shown(value)}' is a text, for it is in quotes", f"Leave out the quotes{own}.")
+    if level and isinstance(value, str):
+        value = quantity(value).value
     return computable_size(value, unit) if size else computable(value, unit)
 
 

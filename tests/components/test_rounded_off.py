@@ -88,15 +88,19 @@ def travel(simulate, name: str, s: float, more: str = "") -> tuple[float, list[s
     return float(result["load.x"][-1]), [said for said in result.remarks if "rounded off" in said]
 
 
+@pytest.mark.parametrize("s", [3e-6, 1e-8, 1e-10])
 @pytest.mark.parametrize("name", SCENES)
-def test_a_small_load_is_told_and_what_is_told_makes_it_come_out_as_the_large_one(simulate, name) -> None:
-    """All forces and masses times s leave the motion as it is."""
+def test_a_small_load_is_told_and_what_is_told_makes_it_come_out_as_the_large_one(simulate, name, s) -> None:
+    """All forces and masses times s leave the motion as it is.
+
+    A load F of what the corner is rounded over counts as F^2/2 alone, so it is the load that is asked for its size.
+    """
     right, said = travel(simulate, name, 1.0)
     assert not said
-    wrong, (said,) = travel(simulate, name, 3e-6)
+    wrong, (said,) = travel(simulate, name, s)
     assert abs(wrong - right) > 0.02 * abs(right)
     given = re.search(r"Give part\.(round_off): (.+)\.$", said)
-    small, said = travel(simulate, name, 3e-6, f", {given[1]}: {given[2]}")
+    small, said = travel(simulate, name, s, f", {given[1]}: {given[2]}")
     assert not said
     assert small == pytest.approx(right, rel=1e-2)
 
@@ -110,3 +114,13 @@ def test_with_a_corner_as_much_smaller_a_part_of_any_size_rubs_alike(simulate, n
     small, said = travel(simulate, name, s, f", round_off: {1e-6 * s} {unit}")
     assert not said
     assert small == pytest.approx(right, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["LeadScrew", "Worm", "Gearbox"])
+def test_a_part_that_turns_evenly_and_carries_nothing_is_not_told(simulate, name) -> None:
+    """What a load of nothing is made of by rounding is no small load. The others are never without one."""
+    moving = re.sub(r"(torque|force): \"[^\"]+\"", r"\1: 0", SCENES[name].format(s=1.0, more=""))
+    moving = re.sub(r"(rotor: {type: Inertia, moment: \"[^\"]+\")", r"\1, speed: 10 rad/s", moving)
+    result = simulate(moving)
+    assert abs(result["rotor.speed"][-1]) == pytest.approx(10.0)
+    assert not [said for said in result.remarks if "rounded off" in said]

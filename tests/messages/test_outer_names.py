@@ -1,5 +1,7 @@
 """Messages speak of ports, entries and items by the names a user writes."""
 
+import math
+
 import pytest
 
 import fairlead
@@ -128,3 +130,40 @@ def test_a_run_refuses_what_it_would_record_in_vain(scene):
     with pytest.raises(ModelError, match=r"no signal has the name block\.vv\. Did you mean block\.v\?") as caught:
         model.run(out=None)
     assert "no signal has the name q*" in str(caught.value)
+
+
+APART = """
+components:
+  part: {{{part}}}
+  shaft: {{type: Inertia, moment: 1 kg*m^2, speed: 3 rad/s}}
+  other: {{type: {other}}}
+connections:
+  - [part.{first}, shaft.shaft]
+  - [part.{second}, other.{end}]
+run: {{stop: 1 us}}
+"""
+MASS = {"other": "Mass, mass: 1 kg, velocity: 2 m/s", "end": "flange"}
+WHEEL = {"other": "Inertia, moment: 1 kg*m^2, speed: 2 rad/s", "end": "shaft"}
+SCREW = "type: LeadScrew, radius: 10 mm, lead: 5 mm, curve: 0.1"
+WORM = "type: Worm, radius: 20 mm, lead: 12.57 mm, curve: 0.12, wheel_radius: 100 mm"
+
+
+@pytest.mark.parametrize(
+    ("part", "first", "second", "other", "said", "belongs"),
+    [
+        (SCREW, "screw", "nut", MASS, "part.nut (other) at 2 m/s", f"{3 * 5e-3 / math.tau:g} m/s"),
+        (WORM, "worm", "wheel", WHEEL, "part.wheel (other) at 2 rad/s", f"{3 * 12.57e-3 / math.tau / 0.1:g} rad/s"),
+        ("type: TorqueSensor", "a", "b", WHEEL, "part.b (other) at 2 rad/s", ""),
+    ],
+)
+def test_start_speeds_that_a_part_does_not_allow_are_told_at_its_own_ports(
+    scene, part, first, second, other, said, belongs
+):
+    """In their own units: not those of the parts that it is made of, nor with the speed of the other end's unit."""
+    with pytest.raises(ModelError) as caught:
+        scene(APART.format(part=part, first=first, second=second, **other)).run(out=None)
+    (fault,) = caught.value.faults
+    assert fault.what.startswith("part keeps its ends at ")
+    assert f"part.{first} (shaft) at 3 rad/s and {said}" in fault.what
+    assert (f"{belongs} belongs to 3 rad/s" in fault.what) == bool(belongs)
+    assert "part.pressed" not in fault.what

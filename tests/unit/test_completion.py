@@ -38,6 +38,7 @@ def test_models_files_and_folders_are_offered():
     assert completion.netlists("bel") == ["belt"]
     assert completion.netlists("min") == ["mine.yaml"]
     assert completion.netlists("sce") == ["scenes/"]
+    assert completion.netlists("single_parts/wo") == ["single_parts/worm"]
 
 
 def test_types_are_offered():

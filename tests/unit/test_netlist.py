@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from fairlead.errors import Location, ModelError
-from fairlead.netlist import EndPoint, load, survey
+from fairlead.netlist import EndPoint, bundled_models, load, survey
 from fairlead.netlist.schema import Document
 
 SCENE = """\
@@ -171,6 +171,27 @@ def test_a_file_that_shares_its_name_with_a_bundled_model_is_not_passed_over(tmp
     with pytest.raises(ModelError, match=r"Write \./single_bend\.yaml"):
         load("single_bend")
     assert load("./single_bend.yaml").name == "single_bend"
+
+
+@pytest.mark.parametrize(
+    "name", ["single_parts/worm", "single_parts/worm.yaml", "hard/valve_shut", "single_parts/table_of_two"]
+)
+def test_a_small_netlist_is_found_by_the_name_of_its_folder_from_anywhere(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    assert load(name).path.stem == name.partition("/")[2].removesuffix(".yaml")
+    assert name not in bundled_models()
+
+
+def test_a_small_netlist_that_is_misspelt_is_told_and_one_beside_a_file_of_that_name_asks(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for asked in ("single_parts/wrom", "worm", "machines/worm"):
+        with pytest.raises(ModelError, match=r"Did you mean single_parts/worm\?"):
+            load(asked)
+    (tmp_path / "single_parts").mkdir()
+    (tmp_path / "single_parts" / "worm.yaml").write_text(SCENE)
+    assert load("single_parts/worm.yaml").path == Path("single_parts/worm.yaml")
+    with pytest.raises(ModelError, match=r"Write \./single_parts/worm\.yaml"):
+        load("single_parts/worm")
 
 
 def test_the_json_schema_of_a_netlist_accepts_the_scene_and_refuses_an_unknown_key():

@@ -266,8 +266,9 @@ def test_the_file_changes_when_it_is_saved_and_only_as_it_was_read(tmp_path: Pat
     assert [one.name for one in tmp_path.iterdir()] == ["a.yaml"]
 
 
-def test_a_bundled_model_is_not_saved() -> None:
-    draft = Draft("belt")
+@pytest.mark.parametrize("name", ["belt", "single_parts/worm"])
+def test_a_bundled_model_is_not_saved(name: str) -> None:
+    draft = Draft(name)
     with pytest.raises(UsageError, match="bundled model"):
         draft.save(draft.text)
 

@@ -15,9 +15,9 @@ MOST = 500
 
 def netlists(incomplete: str) -> list[str]:
     """Bundled models, and files that end in .yaml."""
-    from fairlead.netlist.files import bundled_models
+    from fairlead.netlist.files import bundled_models, named_by_folder
 
-    found: list[str] = [] if "/" in incomplete else [*bundled_models()]
+    found: list[str] = [*named_by_folder()] if "/" in incomplete else [*bundled_models()]
     folder, _, begin = incomplete.rpartition("/")
     here = pathlib.Path(folder or ("/" if incomplete.startswith("/") else "."))
     if here.is_dir():

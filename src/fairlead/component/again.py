@@ -16,6 +16,7 @@ from fairlead.component.assembly import Assembly, HandedOn, Instance, Line, Port
 from fairlead.component.base import Composite, Declared, Expansion
 from fairlead.component.composition import expanded
 from fairlead.component.instantiate import left_open, read_entry
+from fairlead.component.levels import dimensions_of_levels
 from fairlead.component.scene import Scene, Tally
 from fairlead.component.values import Values, variant_of
 from fairlead.errors import Fault, ModelError
@@ -46,6 +47,10 @@ class Again:
     def read(self, entry: Entry, kind: type[Declared], probe: Assembly) -> None:
         """An entry that was given other values, as the empty assembly `probe` reads it. Raises Unlike."""
         faults: list[Fault] = []
+        known = dimensions_of_levels(kind, self.old.netlist.components[entry.name].parameters)
+        levels = dimensions_of_levels(kind, entry.parameters)
+        if any(known.get(name) != dimension for name, dimension in levels.items()):  # asked of the signal joined there
+            raise Unlike
         values = read_entry(probe, kind, entry.parameters, entry.name, entry.where, faults)
         if faults or values is None:
             raise Unlike

@@ -71,6 +71,7 @@ def check(cls: type[Declaring], sort: str) -> None:
         clash = name in {**has.ports, **has.states, **has.unknowns, **has.inputs, **has.discrete}
         demand(cls, not clash, f"the output {name!r} has the name of a port, an input or an unknown of the class")
     _check_named_numbers(cls)
+    _check_likes(cls)
     _check_limits(cls)
     if sort == COMPOSITE:
         demand(cls, cls.answers.expand is not None, "a Composite needs an expand(p) method")
@@ -227,6 +228,17 @@ def _check_named_numbers(cls: type[Declaring]) -> None:
     for name, read in has.inputs.items():
         named = not isinstance(read.default, str) or read.default in known
         demand(cls, named, f"{name!r} is {read.default!r} when nothing is connected, which is no parameter")
+
+
+def _check_likes(cls: type[Declaring]) -> None:
+    """What is like an input names one, and is a plain number as that is."""
+    has = cls.declaration
+    for name, one in {**has.parameters, **has.outputs}.items():
+        if like := getattr(one, "like", ""):
+            known = has.inputs.get(like)
+            demand(cls, known is not None, f"{name!r} is like {like!r}, which is no input of the class")
+            plain = known is not None and known.unit == one.unit == "1"
+            demand(cls, plain, f"{name!r} is like {like!r}, and both must be declared as plain numbers, in 1")
 
 
 def check_fixed(cls: type[Declaring]) -> None:

@@ -120,6 +120,7 @@ class Output:
     output stays so small that the rounding counts. In a Composite the parameter has the same name.
     `name` is what it is called, in laws and by users, where a parameter of the class has that name already.
     `start` is what an output of a Controller is until its first sample: a number, or a parameter's name.
+    `like` is the input whose unit a plain number has, where a part passes on what comes in.
     """
 
     unit: str
@@ -130,6 +131,7 @@ class Output:
     of: str = ""
     gone: tuple[str, str] | None = None
     start: str | float = 0.0
+    like: str = ""
 
 
 @dataclass(frozen=True)

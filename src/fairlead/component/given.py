@@ -25,7 +25,8 @@ class Parameter:
 
     `above`/`below` exclude the bound, `least`/`most` include it. Without a default it must be given.
     A default of None means "absent": the law must not read it then. `usual` is the range in which such a quantity
-    lies in practice; what a netlist gives beyond it is remarked, not refused.
+    lies in practice; what a netlist gives beyond it is remarked, not refused. `like` names the input whose unit a plain
+    number has: a netlist may write it with that unit, and another one than that of the signal joined there is refused.
     """
 
     unit: str
@@ -38,6 +39,7 @@ class Parameter:
     mesh: bool = False
     physics: bool = True
     usual: tuple[float, float] | None = None
+    like: str = ""
 
 
 @dataclass(frozen=True)

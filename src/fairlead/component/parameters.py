@@ -184,7 +184,7 @@ def _field(declared: Any, only: Collection[str] | None = None) -> tuple[Any, Any
         bounds: dict[str, Any] = {"gt": declared.above, "ge": declared.least, "lt": declared.below, "le": declared.most}
         limits = Field(**{name: bound for name, bound in bounds.items() if bound is not None})
         schema = {"type": ["number", "string"], **_schema_bounds(declared)}
-        read = functools.partial(written, unit=declared.unit, size=declared.above == 0)
+        read = functools.partial(written, unit=declared.unit, size=declared.above == 0, level=bool(declared.like))
         kind = Annotated[float, BeforeValidator(read), limits, _Schema(schema)]
     elif isinstance(declared, Effect):
         kind = Annotated[Literal["on", "off"], BeforeValidator(switch)]
@@ -219,6 +219,8 @@ def _field(declared: Any, only: Collection[str] | None = None) -> tuple[Any, Any
 def _hover(declared: Any) -> str:
     """What an editor shows: the sentence, and how to write the quantity."""
     quantity = isinstance(declared, Parameter | Waveform)
+    if quantity and (like := getattr(declared, "like", "")):
+        return f"{declared.doc} Write a quantity in the unit of what is joined to {like}, or a bare number in SI."
     return f"{declared.doc} {wanted(declared.unit) if quantity else ''}".strip()
 
 

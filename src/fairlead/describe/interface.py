@@ -128,7 +128,8 @@ def _allowed(declared: Any) -> str:
     if isinstance(declared, Parameter):
         bounds = ((">", declared.above), (">=", declared.least), ("<", declared.below), ("<=", declared.most))
         limits = " and ".join(f"{sign} {bound:g}" for sign, bound in bounds if bound is not None)
-        return f"[{declared.unit}] {limits}".rstrip()
+        unit = f"unit of {declared.like}" if declared.like else declared.unit
+        return f"[{unit}] {limits}".rstrip()
     if isinstance(declared, Choice):
         return " | ".join(declared.options)
     if isinstance(declared, Count):

@@ -15,6 +15,7 @@ from fairlead.errors import Fault, Location, ModelError
 from fairlead.flatten.collection import collected_later
 from fairlead.flatten.flat_model import FlatModel, Group
 from fairlead.flatten.kinematics import group
+from fairlead.flatten.levels import unlike
 from fairlead.flatten.never_slips import never_slips
 from fairlead.flatten.routing import lay
 from fairlead.flatten.wiring import port_graph, wire
@@ -48,6 +49,7 @@ def survey(assembly: Assembly) -> tuple[FlatModel, list[Fault]]:
     if not faults and not assembly.broken:
         faults += unheard(assembly.netlist, (instance.type for instance in instances))
     faults += _without_effect(flat) + _always_held(flat) + _held_between_prescribed(flat) + _missing_inputs(flat)
+    faults += unlike(flat)
     _start_sources(flat)
     return flat, sorted(set(faults), key=lambda f: (f.where is None, f.where, f.what))
 

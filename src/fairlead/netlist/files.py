@@ -13,6 +13,8 @@ from fairlead.errors import Fault, Location, ModelError, did_you_mean, listing, 
 from fairlead.netlist.limits import MOST_BYTES
 
 MOST_NAMES = 200  # of a folder, looked at for a suggestion
+SMALL = ("single_parts", "sized", "hard")
+"""Folders of netlists that come with fairlead besides the bundled models; each is named with its folder."""
 # What YAML (section 5.1) does not allow in a text; a file with one of these is binary or damaged. To make the pattern
 # once more would take 3 ms.
 UNPRINTABLE = Reader.NON_PRINTABLE
@@ -24,11 +26,11 @@ def find(path: str | os.PathLike[str]) -> Path:
     where = Location(shown(asked))
     if UNPRINTABLE.search(asked):
         raise ModelError([Fault(where, "this is not the name of a file in UTF-8", "Give the file a plain name.")])
-    bundled = bundled_models()
     if _is(asked, Path.is_file):
         return Path(asked)
-    if (name := asked.removesuffix(".yaml")) in bundled:
-        return _unless_ambiguous(bundled[name], Path(f"{name}.yaml"), where)
+    bundled = bundled_models()
+    if (name := asked.removesuffix(".yaml")) in (known := bundled | named_by_folder()):
+        return _unless_ambiguous(known[name], Path(f"{name}.yaml"), where)
     if _is(asked, Path.is_dir):
         way_out = _neighbours(Path(asked), "netlist")
         if _is(f"{asked}/run.json", Path.is_file):
@@ -38,7 +40,9 @@ def find(path: str | os.PathLike[str]) -> Path:
         raise ModelError([Fault(where, "this is not a regular file")])
     if to := leads_nowhere(Path(asked)):
         raise ModelError([Fault(where, *to)])
-    near = did_you_mean(Path(asked).stem, bundled)
+    stem = Path(asked).stem
+    elsewhere = next((f"Did you mean {one}?" for one in known if one.rpartition("/")[2] == stem), "")
+    near = elsewhere or did_you_mean(name, known) or did_you_mean(stem, bundled)
     local = _nearest(Path(), asked) if _is_path(asked) else ""
     if not local and not near and _is_path(asked):
         local = _neighbours(Path(asked).parent, Path(asked).name)
@@ -66,11 +70,21 @@ def _unless_ambiguous(bundled: Path, local: Path, where: Location) -> Path:
 
 def bundled_models() -> dict[str, Path]:
     """The netlists that come with fairlead, by name; whole machines by `machines/NAME`."""
-    spec = importlib.util.find_spec("fairlead.models")
-    folders = [Path(folder) for folder in (spec.submodule_search_locations if spec else None) or ()]
+    folders = _folders()
     files = [file for folder in folders for file in sorted(folder.glob("*.yaml"))]
     machines = [file for folder in folders for file in sorted(folder.glob("machines/*.yaml"))]
     return {file.stem: file for file in files} | {f"machines/{file.stem}": file for file in machines}
+
+
+def named_by_folder() -> dict[str, Path]:
+    """The small netlists that come with fairlead, by `single_parts/NAME` and the like."""
+    files = [(of, file) for folder in _folders() for of in SMALL for file in sorted(folder.glob(f"{of}/*.yaml"))]
+    return {f"{of}/{file.stem}": file for of, file in files}
+
+
+def _folders() -> list[Path]:
+    spec = importlib.util.find_spec("fairlead.models")
+    return [Path(folder) for folder in (spec.submodule_search_locations if spec else None) or ()]
 
 
 def inside(folder: Path, base: Path, text: str, where: Location | None) -> Path:

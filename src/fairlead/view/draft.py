@@ -6,7 +6,7 @@ import hashlib
 import shutil
 
 from fairlead.errors import UsageError
-from fairlead.netlist.files import bundled_models, display, find, read_text
+from fairlead.netlist.files import bundled_models, display, find, named_by_folder, read_text
 from fairlead.results.placing import placing
 
 MARK = b"\xef\xbb\xbf"
@@ -31,7 +31,7 @@ class Draft:
     @property
     def refusal(self) -> str:
         """Why the file is not to be saved, or ""."""
-        if self.file.resolve() in {one.resolve() for one in bundled_models().values()}:
+        if self.file.resolve() in {one.resolve() for one in (bundled_models() | named_by_folder()).values()}:
             return f"{self.file.stem} is a bundled model, which is not changed. Copy its text into a file of your own."
         return ""
 

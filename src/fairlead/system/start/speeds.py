@@ -11,6 +11,7 @@ while they were at rest.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from dataclasses import replace
 
@@ -163,19 +164,67 @@ def _faults(system: System, block: Block, y: Floats, wrong: set[int]) -> list[Fa
         at = block.flow_index[:, s.targets.index(f"own:{unknown}")].tolist()
         for instance, k in zip(block.instances, at, strict=True):
             if k in wrong:
-                ports = s.pairs.get(unknown, instance.type.declaration.ports)
-                ends = [_end(system.flat, PortRef(instance.path, port), y, system.numbering.rate) for port in ports]
+                names = s.pairs.get(unknown, instance.type.declaration.ports)
+                inner = [PortRef(instance.path, port) for port in names]
+                who, ends = _as_written(system.flat, instance.path, inner)
+                told = [_end(system.flat, end, y, system.numbering.rate) for end in ends]
                 kept = "at one speed" if len(ends) == 2 else f"at {len(ends)} speeds of which one follows"
                 kept = "in a relation of positions" if unknown in s.positions else kept
-                what = f"{instance.path} keeps its ends {kept}, but they start with {' and '.join(ends)}."
+                fits = ""
+                if unknown not in s.positions and _turned(system.flat, inner, ends):
+                    kept = "at speeds of a fixed ratio"
+                    fits = _partner(system.flat, inner, ends, y, system.numbering.rate)
+                what = f"{who} keeps its ends {kept}, but they start with {' and '.join(told)}{fits}."
                 which = "all but one of them" if len(ends) == 2 else "one of them"
                 faults.append(Fault(instance.where, what, f"Give speeds that agree, or leave out {which}."))
     return faults
 
 
+def _as_written(flat: FlatModel, path: str, inner: list[PortRef]) -> tuple[str, list[PortRef]]:
+    """The outermost component that is made of the instance at `path` and has ports that move with its ends; and these.
+
+    They are named as that hands them out. The instance itself where there is none.
+    """
+    steps = path.split(".")
+    for depth in range(1, len(steps)):
+        outer = ".".join(steps[:depth])
+        expansion = flat.assembly.expansions.get(outer)
+        names = expansion.ports if expansion is not None else ()
+        there = {PortRef(outer, name): flat.assembly.aliases[f"{outer}.{name}"] for name in names}
+        moving = {flat.place(ref)[0]: end for end, ref in there.items() if ref in flat.node_of}
+        if all(flat.place(end)[0] in moving for end in inner):
+            return outer, [moving[flat.place(end)[0]] for end in inner]
+    return path, inner
+
+
+def _place(flat: FlatModel, ref: PortRef) -> tuple[int, float, str]:
+    """Group, ratio and unit of the speed of a port, also where a component hands it out."""
+    leaf = flat.assembly.aliases.get(str(ref), ref)
+    index, ratio, _ = flat.place(leaf)
+    port = flat.assembly.instances[leaf.instance].type.declaration.ports[leaf.port]
+    return index, ratio, port.domain.across[-1][1]
+
+
+def _turned(flat: FlatModel, inner: list[PortRef], ends: list[PortRef]) -> bool:
+    """Whether the ends that are named move otherwise, to each other, than those that are kept at one speed."""
+    ratios = [(_place(flat, one)[1], _place(flat, end)[1]) for one, end in zip(inner, ends, strict=True)]
+    (first, of_first), *others = ratios
+    return not all(math.isclose(first * of_end, of_first * ratio) for ratio, of_end in others)
+
+
+def _partner(flat: FlatModel, inner: list[PortRef], ends: list[PortRef], y: Floats, rates: dict[int, int]) -> str:
+    """Of two ends: the speed of the second that belongs to that of the first; empty where that is prescribed."""
+    index, ratio, unit = _place(flat, ends[0])
+    (_, by_one, _), (_, by_other, _) = (_place(flat, one) for one in inner[:2])
+    if len(ends) != 2 or index not in rates or by_other == 0.0:
+        return ""
+    _, turned, other = _place(flat, ends[1])
+    speed = y[rates[index]]
+    return f", and {by_one * turned / by_other * speed:g} {other} belongs to {ratio * speed:g} {unit}"
+
+
 def _end(flat: FlatModel, ref: PortRef, y: Floats, rates: dict[int, int]) -> str:
-    index, ratio, _ = flat.place(ref)
-    unit = flat.groups[index].domain.across[-1][1]
+    index, ratio, unit = _place(flat, ref)
     who = flat.groups[index].name
     if index not in rates:
         return f"{ref} prescribed by {who}"
