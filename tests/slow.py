@@ -413,7 +413,7 @@ LEFT_TO_TEST_ALL = (
     "tests/components/test_one_successor.py::test_a_*[dahl]",
     "tests/components/test_one_successor.py::test_fast_*[binding]",
     "tests/components/test_one_successor.py::test_fast_*[elastoplastic]",
-    "tests/components/test_rounded_off.py::test_a_*[LoadedFriction]",
+    "tests/components/test_rounded_off.py::test_a_*[LoadedFriction-*]",
     "tests/components/test_shaft_friction.py::test_a_*[karnopp-points: [[0, 4*",
     "tests/integrate/test_published.py::test_stepping_*[1e-05]",
     "tests/integrate/test_published.py::test_the_*[pollution-rodas5p]",

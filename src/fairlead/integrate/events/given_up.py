@@ -1,9 +1,10 @@
 """A trial step that is given up, in every engine: it is taken again with another length, or its start is settled.
 
 Companion rule. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
-zones at the start were wrong, so the start is settled. Where it was settled already and no such guard rises by the
-slopes there, the step is too rough at its start, and a much shorter one is tried: the interpolant of a long step has a
-body that begins to leave a stop by t^3 enter it by more than a guard of places is known to.
+zones at the start were wrong, so the start is settled. Where it was settled already and all such guards fall by the
+slopes there, the step is too rough at its start, and a much shorter one is tried. So it is where one neither falls nor
+rises by them, but is below zero at the end: the interpolant of a long step has a body that begins to leave a stop by
+t^3 enter it by more than a guard of places is known to.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from fairlead.integrate.codes import BEFORE, GO_ON, SETTLE
 from fairlead.integrate.events.pace import DOUBT
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
-from fairlead.integrate.events.violators import none_rises
+from fairlead.integrate.events.violators import fall_from_start
 from fairlead.integrate.memory.foreign import compiled
 from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.record.rows import write_row
@@ -54,6 +55,6 @@ def mend_start(m, h):
     run, point = m.run, m.point
     run.rejected_companion += 1
     doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
-    if doubtful and none_rises(m.problem, run, point, m.events):
+    if doubtful and fall_from_start(m.problem, run, point, m.events):
         return take_much_shorter(run, m.events.guards, h)
     return settle_at_start(m)

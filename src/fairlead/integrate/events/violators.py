@@ -171,18 +171,17 @@ def distance_to_look(run, point):
 
 
 @compiled
-def none_rises(problem, run, point, events):
-    """True if no guard in `fired` rises along (y', y'') from the point, as it was settled."""
-    guards = events.guards
+def fall_from_start(problem, run, point, events):
+    """True if every guard in `fired` decreases along (y', y'') from the point, as it was settled.
+
+    Or does not rise there, and is below zero at the end of the step: it decreases by its third derivative.
+    """
+    guards, ng = events.guards, events.guards.n_guards
     look_ahead(problem, run, point, events)
-    g, probe = reals(guards.at_g, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
-    tolerance, fired = reals(guards.at_guard_tolerance, guards.n_guards), indices(guards.at_fired, guards.n_guards)
-    known_to = place_rounding(problem, point) if problem.n_met_guards > 0 else 0.0
-    met = indices(problem.at_met_guard, problem.n_met_guards)
-    for i in met:
-        if abs(probe[i] - g[i]) <= known_to:
-            probe[i] = g[i]
-    rises = False
+    g, probe, end = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_g_end, ng)
+    tolerance, fired = reals(guards.at_guard_tolerance, ng), indices(guards.at_fired, ng)
+    falling = True
     for k in range(guards.n_fired):
-        rises = rises or probe[fired[k]] - g[fired[k]] > RISE * tolerance[fired[k]]
-    return not rises
+        change, seen = probe[fired[k]] - g[fired[k]], RISE * tolerance[fired[k]]
+        falling = falling and (change < -seen or (change <= seen and end[fired[k]] < 0.0))
+    return falling
