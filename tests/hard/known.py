@@ -18,7 +18,6 @@ LEDGER = "the energy of contacts that creep or bend is missing by more than ten 
 SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 CREEPS = "a row inside a step shows a contact that creeps at its limit 1.03e-5 above it at 1e-5; 1e-5 is allowed"
-AT_LIMIT = "a contact that lets go twice within a dwell is shown with 1.3e-5 more than its limit; 1e-5 is allowed"
 TOUCHED = "stepping: a creep whose load comes to its limit and no further is shown 7e-4 above it in steps of 10 us"
 ASIDE = "ida: a body that is put back to what moves as given is not in its history; it ends and names rodas"
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
@@ -33,7 +32,6 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
     ("random networks, 20", "stepping", "binding", TOUCHED),
     ("random networks, 200", "stepping", "*", LIGHT),
-    ("random networks, 200", "rodas", "hold", AT_LIMIT),
     ("random networks, 200", "rodas", "binding", CREEPS),
     ("random routes, 10", "stepping", "hold", ROUTE),
     ("body that a shaking plate throws, 8 Hz", "ida", "none", ASIDE),
@@ -48,7 +46,7 @@ LEFT: tuple[tuple[str, str, str, str], ...] = (
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 
 
-MENDED: tuple[tuple[str, str, str], ...] = ()
+MENDED: tuple[tuple[str, str, str], ...] = (("random networks, 200", "rodas", "hold"),)
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 
