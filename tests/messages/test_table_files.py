@@ -15,7 +15,7 @@ def read(folder, data, name="force.csv"):
 
 @pytest.mark.parametrize("text", [
     "0,1\n2,5\n", "t,force\n0,1\n2,5\n", "# measured\n\nt [s],F [N]\n 0 , 1 \n2,5,\n", "\ufeff0,1\r\n2,5\r\n",
-    '"time","force"\n"0","1"\n"2","5"\n',
+    '"time","force"\n"0","1"\n"2","5"\n', "Measured in March\n0,1\n2,5\n", "t,force,remark\n0,1\n2,5\n",
 ])  # fmt: skip
 def test_two_columns_with_or_without_a_header_are_read(tmp_path, text):
     table = read(tmp_path, text)
@@ -76,6 +76,8 @@ WRONG = [
     ("-inf,infinity\n0,0\n1,1\n", "row 1, column 1: -inf is not a number"),
     ("O,O\n1,0\n2,1\n", "row 1, column 1: O is not a number"),
     ("t [ms],F [mm]\n0,0\n1,1\n", "row 1: F [mm] is a column of another kind: a force is wanted here"),
+    ("t [ms]\n0,0\n1,1\n", "row 1: the header has 1 column with units; a table has two"),
+    ("t [ms],F [kN],v [m/s]\n0,0\n1,1\n", "row 1: the header has 3 columns with units; a table has two"),
     ("t [ms],F [raw]\n0,0\n1,1\n", "row 1: F [raw] is no column with a unit"),
     ("t,y\n", "a table has 2 to 100000 points, this one has 0"),
 ]  # fmt: skip

@@ -73,6 +73,13 @@ def test_an_entry_that_a_page_cannot_use_is_no_mistake_of_fairlead_where_somebod
     assert CliRunner().invoke(app, ["report", str(path)]).exit_code == 70
 
 
+def test_a_word_that_is_too_long_for_a_name_does_not_hide_what_failed(monkeypatch):
+    monkeypatch.setattr("fairlead.simulate.opened", lambda *_, **__: 1 / 0)
+    answer = CliRunner().invoke(app, ["check", "belt", "--set", f"mu={'1' * 5000}"])
+    assert answer.exit_code == 70
+    assert "ZeroDivisionError" in answer.output
+
+
 def test_a_run_json_that_is_cut_off_is_not_taken_for_none(sound: Path) -> None:
     (sound / "run.json").write_bytes((sound / "run.json").read_bytes()[:100])
     assert "run.json: the file is damaged (" in refused(sound)

@@ -166,7 +166,7 @@ def _of_changed_results(given: dict[str, Any]) -> FairleadError | None:
     """The sentence about a run.json that was changed since its run, which a verb that reads it may not survive."""
     words = [one for each in given.values() for one in (each if isinstance(each, list | tuple) else [each])]
     folders = [pathlib.Path(one) for one in words if isinstance(one, str | pathlib.Path)]
-    if not any((one / "run.json").is_file() for one in folders):
+    if not any(map(_holds_a_run, folders)):
         return None
     from fairlead.results import run_file
     from fairlead.results.damage import DamagedResultsError
@@ -174,6 +174,13 @@ def _of_changed_results(given: dict[str, Any]) -> FairleadError | None:
     what = "its entries are not those that the run left (SHA-256), and one of them cannot be used."
     return next((DamagedResultsError(one / run_file.RUN_FILE, what) for one in folders if run_file.is_changed(one)),
                 None)  # fmt: skip
+
+
+def _holds_a_run(folder: pathlib.Path) -> bool:
+    try:
+        return (folder / "run.json").is_file()
+    except OSError:  # too long for a name
+        return False
 
 
 def _belongs_to_typer(error: Exception) -> bool:

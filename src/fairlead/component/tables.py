@@ -185,10 +185,10 @@ def _from_file(
         if picked is not None and len(cells) > max(picked):
             cells = [cells[k] for k in picked]
         if k == 0 and (columns is not None or _are_names(cells)):
-            own = [_own_unit(*told, f"{said} {line}") for told in zip(cells, units, strict=False)] or own
+            own = _own_units(cells, units, f"{said} {line}")
             continue
         pair = _pair(cells, f"{said} {line}")
-        found.append([f"{number!r} {unit}" if unit else number for number, unit in zip(pair, own, strict=False)])
+        found.append([f"{number!r} {unit}" if unit else number for number, unit in zip(pair, own, strict=True)])
         lines.append(line)
     return found, lambda k, _: (("file",), f"{said} {lines[k]}: ")
 
@@ -204,6 +204,16 @@ def _is_name(cell: str) -> bool:
     except ValueError:
         return any(letter.isalpha() for letter in cell) and not NUMBER.match(cell.translate(MINUS))
     return False
+
+
+def _own_units(names: list[str], units: tuple[str, str], said: str) -> list[str]:
+    """The units that a header gives its two columns. A title of another length gives none. Raises TableError."""
+    if len(names) == 2:
+        return [_own_unit(*told, said) for told in zip(names, units, strict=True)]
+    if any((told := IN_BRACKETS.fullmatch(name)) and told["square"] for name in names):
+        what = f"{said}: the header has {len(names)} column{'s' * (len(names) > 1)} with units; a table has two"
+        raise TableError(what, "Name both columns, or write no units.", ("file",))
+    return ["", ""]
 
 
 def _own_unit(name: str, unit: str, said: str) -> str:

@@ -1,7 +1,7 @@
 """Code that was compiled ahead: LLVM bitcode for any processor of an architecture, which llvmlite makes native.
 
     stored = find(module, sources)         what the installed package holds for a module of the loop, if it fits
-    build = stored.for_here()              to be made native for this processor; takes a second, and no numba
+    build = stored.for_here()              to be made native for this processor; takes two seconds, and no numba
 
 LLVM's passes ran when it was made, so here only machine code is left to make.
 
