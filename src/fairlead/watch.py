@@ -25,6 +25,7 @@ from fairlead.analysis.record.used_up import UsedUp
 from fairlead.analysis.record.went_round import WentRound
 from fairlead.analysis.record.wind_up import WindUp
 from fairlead.analysis.record.zone_changes import ZoneChanges
+from fairlead.component.declare import PULL
 from fairlead.integrate import Block, End
 from fairlead.interruption import Interruption
 from fairlead.results import Sink
@@ -78,8 +79,9 @@ class Watch:
 
     def __post_init__(self) -> None:
         """Find the columns."""
-        self.steps, self.batches, self.begun = WholeSteps(), Batches(len(self.recording.recorded)), False
-        self.extremes = Extremes(len(self.recording.recorded))
+        self.steps, self.begun = WholeSteps(), False
+        searched = told_extremes(self.recording, self.limits)
+        self.batches, self.extremes = Batches(searched), Extremes(searched)
         self.thinning = Thinning(self.accuracy, len(self.recording.chosen))
         self.changes = ZoneChanges(self.system)
         columns = {signal.name: k for k, signal in enumerate(self.recording.recorded)}
@@ -102,7 +104,7 @@ class Watch:
     def _take(self, block: Block) -> None:
         rows = Rows(block.t, block.values, block.side)
         if self.peaks:
-            for batch in self.batches.take(rows):
+            for batch in self.batches.take(rows._replace(values=rows.values[:, : self.extremes.signals])):
                 self.extremes.watch(batch)
         asked = slice(len(self.recording.chosen)) if self.columns is None else self.columns
         whole = self.steps.take(rows._replace(values=rows.values[:, asked]))
@@ -157,6 +159,13 @@ class Watch:
         columns = range(len(counts)) if self.columns is None else self.columns
         most = {self.recording.recorded[columns[k]].name: int(counts[k]) for k in first}
         return {"kept": self.event_rows.kept, "most": most}
+
+
+def told_extremes(recording: Recording, limits: Limits) -> int:
+    """So many of the first recorded signals have extremes that are told: the chosen, pulls, and those limited."""
+    pulls = [k for k, signal in enumerate(recording.recorded) if signal.role == PULL]
+    limited = [int(column) for limit in limits.limits for column in limit.columns]
+    return max([len(recording.chosen), *(k + 1 for k in [*pulls, *limited])])
 
 
 def up_to(block: Block, row: int) -> Block:

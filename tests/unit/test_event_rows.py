@@ -79,3 +79,20 @@ def test_a_jump_is_judged_by_what_was_seen_before_it_and_not_by_what_comes_later
     values = np.array([[0.1], [0.1], [0.101], [1000.0], [0.1], [0.101]])
     kept = EventRows(np.array([1e-3])).take(Rows(t, values, side))
     assert kept.t.tolist() == [0.0, 1.0, 1.0, 2.0]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_kept_is_what_the_rule_says_row_by_row(seed):
+    rows = recorded(seed)
+    largest, keep, counts, events = np.zeros(3), np.ones(len(rows.t), dtype=bool), np.zeros(3, dtype=int), 0
+    for k in range(len(rows.t)):
+        largest = np.fmax(largest, np.abs(rows.values[k]))
+        if k and rows.side[k - 1] == BEFORE and rows.side[k] == AFTER:
+            jumps = np.abs(rows.values[k] - rows.values[k - 1]) > LEAST * (largest + 1e-9)
+            counts, events = counts + jumps, events + bool(jumps.any())
+            keep[k - 1 : k + 1] = jumps.any()
+    kept = EventRows(LEAST)
+    written = [kept.take(block) for block in cut(rows, seed)] + [kept.rest()]
+    assert np.concatenate([one.t for one in written]).tolist() == rows.t[keep].tolist()
+    assert (kept.kept, kept.jumps.tolist()) == (events, counts.tolist())
+    assert 0 < events < np.count_nonzero(rows.side == AFTER)

@@ -5,7 +5,7 @@ import pytest
 
 import fairlead.analysis.record.extremes as extremes_module
 from fairlead.analysis.record.event_rows import Rows
-from fairlead.analysis.record.extremes import Extremes, peak_of_curves
+from fairlead.analysis.record.extremes import Extremes, may_reach, peak_of_curves
 from fairlead.analysis.record.step_rows import INSIDE, LEAST_ROWS, MOST_ROWS, MOST_VALUES, Batches
 from fairlead.results.plateau import first_row
 
@@ -122,3 +122,18 @@ def test_rows_alone_tell_the_first_of_equal_values():
     assert first_row(values, least=False) == 2
     assert first_row(values, least=True) == 1
     assert first_row(np.array([3.0, 3.0 + 1e-9]), least=False) == 1  # two numbers that differ
+
+
+@pytest.mark.parametrize("nodes", [3, 5])
+def test_a_curve_that_is_not_searched_stays_below(nodes):
+    values = np.random.default_rng(nodes).normal(size=(3000, nodes)) * 10.0 ** np.linspace(-3, 3, 3000)[:, None]
+    curves = np.polynomial.polynomial.polyfit(np.linspace(0, 1, nodes), values.T, nodes - 1)
+    tops = np.polynomial.polynomial.polyval(np.linspace(0, 1, 401), curves).max(axis=1)
+    least = tops - 1e-9 * np.abs(tops)
+    assert may_reach(values, least).all()
+    far = values.max(axis=1) + 2.0 * np.ptp(values, axis=1)
+    assert not may_reach(values, far).any()
+
+
+def test_a_value_that_is_no_number_is_searched():
+    assert may_reach(np.array([[0.0, np.nan, 0.0]]), np.array([1.0])).all()

@@ -60,12 +60,16 @@ class EventRows:
 
     def _worth_keeping(self, rows: Rows) -> NDArray[np.bool_]:
         """By row; counts what jumps."""
-        size = np.abs(rows.values)
-        np.fmax(size[0], self.largest, out=size[0])
-        largest = np.fmax.accumulate(size, axis=0)
-        self.largest = largest[-1].copy()
         left = np.flatnonzero((rows.side[:-1] == BEFORE) & (rows.side[1:] == AFTER))
-        jump = np.abs(rows.values[left + 1] - rows.values[left]) > self.least * (largest[left + 1] + LITTLE)
+        apart = np.abs(rows.values[left + 1] - rows.values[left])
+        jump = apart > self.least * (self.largest + LITTLE)  # at most these: the largest value so far only grows
+        which = np.flatnonzero(jump.any(axis=1))
+        begin = 0
+        for k in which:
+            self._enlarge(rows.values[begin : left[k] + 2])
+            begin = left[k] + 2
+            jump[k] = apart[k] > self.least * (self.largest + LITTLE)
+        self._enlarge(rows.values[begin:])
         sharp = jump.any(axis=1)
         self.kept += int(np.count_nonzero(sharp))
         self.jumps += jump.sum(axis=0)
@@ -73,3 +77,9 @@ class EventRows:
         smooth = left[~sharp]
         keep[smooth] = keep[smooth + 1] = False
         return keep
+
+    def _enlarge(self, values: NDArray[np.float64]) -> None:
+        """Take the largest value of each signal from these rows too; NaN is none."""
+        if len(values):
+            np.fmax(self.largest, np.fmax.reduce(values, axis=0), out=self.largest)
+            np.fmax(self.largest, -np.fmin.reduce(values, axis=0), out=self.largest)

@@ -92,6 +92,7 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, 
     best[np.isnan(best)] = -np.inf
     near = _tolerances(best, before)
     signal, stretch = np.nonzero(_near(best, before))
+    least = (np.maximum(before, best.max(axis=1)) - near)[signal]  # what is below this is not the highest
     column, sign = signal % signals, np.where(signal < signals, 1.0, -1.0)
 
     def taken(of: Integers, at: Integers) -> Floats:
@@ -107,9 +108,12 @@ def _highest(rows: Rows, values: Floats, steps: list[Integers], before: Floats, 
         ends_here = (first <= which[ending, -1]) & (which[ending, -1] <= last)
         for step, found in ((within, last <= which[within, -1]), (ending, ends_here)):
             of = np.flatnonzero((step >= 0) & found)
+            at = which[step[of]]
+            seen = taken(of, at)
+            near_top = may_reach(seen, least[of])
+            of, at, seen = of[near_top], at[near_top], seen[near_top]
             if len(of):
-                at = which[step[of]]
-                peak, share = peak_of_curves(taken(of, at))
+                peak, share = peak_of_curves(seen)
                 if at.shape[1] == 3:
                     peak[_bends_alone(rows, taken, of, at)] = -np.inf
                 t0, t1 = rows.t[at[:, 0]], rows.t[at[:, -1]]
@@ -160,7 +164,10 @@ def _first_best(
 
 def _near(best: Floats, before: Floats) -> NDArray[np.bool_]:
     """[2 signals, stretches]: whether a stretch comes near to the highest so far, in the range of the signal so far."""
-    so_far = np.fmax.accumulate(np.concatenate([before[:, None], best], axis=1), axis=1)[:, :-1]
+    so_far = np.empty_like(best)
+    so_far[:, 0] = before
+    for k in range(1, best.shape[1]):  # few stretches of many signals: accumulate goes along the other way, much slower
+        np.fmax(so_far[:, k - 1], best[:, k - 1], out=so_far[:, k])
     least = -np.roll(so_far, len(before) // 2, axis=0)
     with np.errstate(invalid="ignore"):
         return np.asarray((best > so_far - MARGIN * (so_far - least)) | ~np.isfinite(so_far))
@@ -210,6 +217,23 @@ def peak_of_neighbours(rows: Rows, taken: Taken, row: Integers) -> tuple[Integer
     slope = (slopes[:, 1] * gaps[:, 2] + slopes[:, 2] * gaps[:, 1]) / (gaps[:, 1] + gaps[:, 2])
     shift = np.clip(-slope / (2.0 * bend), -gaps[:, 1], gaps[:, 2])
     return inner, v[:, 2] + shift * (slope + bend * shift), t[:, 2] + shift
+
+
+def may_reach(v: Floats, least: Floats) -> NDArray[np.bool_]:
+    """Where a curve through evenly spaced values [k, n] may reach `least` [k]; always where a value is no number.
+
+    It is above the highest value by the difference to the lowest times the sum of the negative weights at most.
+    """
+    with np.errstate(invalid="ignore"):
+        top = v.max(axis=1)
+        return np.asarray(~(top + _overshoot(v.shape[1]) * (top - v.min(axis=1)) < least))
+
+
+@cache
+def _overshoot(n: int) -> float:
+    """The largest sum of the negative weights of a curve through n evenly spaced values, with a little to spare."""
+    weights = basis(np.linspace(0.0, 1.0, 1001), np.linspace(0.0, 1.0, n))
+    return 1.01 * float(-np.minimum(weights, 0.0).sum(axis=1).min())
 
 
 def peak_of_curves(v: Floats) -> tuple[Floats, Floats]:

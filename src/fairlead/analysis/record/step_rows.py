@@ -22,8 +22,8 @@ KEPT = 0.5
 Integers = NDArray[np.int64]
 
 
-MOST_VALUES = 2**18
-"""Values of a batch, 2 MB, if its rows are not fewer than LEAST_ROWS."""
+MOST_VALUES = 2**19
+"""Values of a batch, 4 MB, if its rows are not fewer than LEAST_ROWS."""
 LEAST_ROWS, MOST_ROWS = 64, 2048
 
 
