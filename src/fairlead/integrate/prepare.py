@@ -19,7 +19,7 @@ from fairlead.integrate.problem import CALLBACKS, AnyPattern, Bytes, Instance, I
 from fairlead.integrate.rodas.tableau import TABLEAUS, Tableau
 from fairlead.integrate.stepping.neighbours import held_bodies, held_entries, held_inertia, known_rows, neighbours
 
-BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 128, 1 << 16
+BLOCK_NUMBERS, LEAST_ROWS, MOST_ROWS = 1 << 17, 64, 1 << 16
 """Recorded numbers a block may hold; rows it may hold at least, 5 are needed, and at most."""
 EVENTS = 4096
 """Zone changes a block may hold, if four passes of a settlement are no more."""

@@ -41,7 +41,7 @@ FIRST_FLUSH = 2.0
 """Wall seconds until the file is laid out: for 500 signals that takes a tenth of a second, and a run that is shorter
 lays it out once, at its end."""
 LARGEST_SHARE_OF_FLUSHING = 0.05
-MOST_BYTES_IN_MEMORY = 2**24
+MOST_BYTES_IN_MEMORY = 2**22
 
 
 class RunDirectory(Sink):

@@ -35,6 +35,8 @@ SERIES_FILE, TEMPORARY = "series.nc", "series.nc.new"
 FIRST_ROOM = 1024
 GROWTH = 4
 LARGEST_COPY = 2**26
+BYTES_AT_ONCE = 2**22
+"""Read from a file to be copied, so that a copy takes no memory to speak of."""
 BYTES_OF_LAYOUT = 4096  # for each variable; measured: 2700
 
 
@@ -101,7 +103,9 @@ class SeriesWriter:
         layout.create(temporary, self._signals, room)
         with open_file(temporary, "r+") as successor:
             if self._file is not None:
-                _append(successor, self._signals, 0, *_rows_of(self._file, self._signals))
+                for first in range(0, self._rows, slab := max(1, BYTES_AT_ONCE // self._bytes_in_row)):
+                    last = min(first + slab, self._rows)
+                    _append(successor, self._signals, first, *_rows_of(self._file, self._signals, first, last))
             _append(successor, self._signals, self._rows, t, values, side)
         if self._file is not None:
             self._file.close()
@@ -160,13 +164,13 @@ def _append_columns(file: Any, names: list[str], first: int, values: NDArray[Any
 
 
 def _rows_of(
-    file: Any, signals: tuple[Signal, ...]
+    file: Any, signals: tuple[Signal, ...], first: int, last: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int8]]:
-    """Return all that a file holds: times (n,), values (n, m), sides (n,)."""
+    """Return the rows `first` to `last` of a file: times (n,), values (n, m), sides (n,)."""
     if layout.is_matrix(signals):
-        values = file[MATRIX][:]
+        values = file[MATRIX][first:last]
     else:
-        values = np.empty((len(file[TIME]), len(signals)), order="F")
+        values = np.empty((last - first, len(signals)), order="F")
         for index, name in enumerate(layout.value_variables(signals)):
-            values[:, index] = file[name][:]
-    return file[TIME][:], values, file[SIDE][:]
+            values[:, index] = file[name][first:last]
+    return file[TIME][first:last], values, file[SIDE][first:last]

@@ -28,6 +28,10 @@ class Rows(NamedTuple):
         """Some of them."""
         return Rows(self.t[which], self.values[which], self.side[which])
 
+    def kept(self, first: int) -> Rows:
+        """Those from `first` on, to be kept: copies, since a view of a few rows keeps all of them in memory."""
+        return Rows(self.t[first:].copy(), self.values[first:].copy(), self.side[first:].copy())
+
 
 class EventRows:
     """Takes rows block by block and gives back those to write."""
@@ -49,7 +53,7 @@ class EventRows:
             t, values = np.concatenate([first.t, more.t]), np.concatenate([first.values, more.values])
             rows = Rows(t, values, np.concatenate([first.side, more.side]))
         ends_left = len(rows.side) > 0 and rows.side[-1] == BEFORE
-        self._waiting = rows.where(slice(-1, None)) if ends_left else None
+        self._waiting = rows.kept(-1) if ends_left else None
         if ends_left:
             rows = rows.where(slice(0, -1))
         return rows.where(self._worth_keeping(rows)) if len(rows.t) else rows

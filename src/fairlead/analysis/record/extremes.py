@@ -29,6 +29,8 @@ STRETCH, SHORT = 64, 16
 """Rows of which the best one is searched round, and the same of at most FEW signals: a motion may have a peak in each.
 Of two peaks in one stretch the higher may have its rows farther from its top."""
 FEW = 32
+MOST_AT_ONCE = 2048
+"""Places whose rows are laid side by side in memory: a megabyte of them."""
 MARGIN = 0.1
 """Steps are searched of which a row comes as near to the largest value so far, in the range of the signal so far."""
 AGREE = 0.25
@@ -150,15 +152,18 @@ def _first_best(
     The rows of a stretch are a slice of the values; to gather them one by one took twice as long.
     """
     whole = len(values) // length
-    inside, rest = stretch < whole, values[whole * length :]
-    seen = np.full((len(stretch), length), np.nan)
-    stretches = values[: whole * length].reshape(whole, length, values.shape[1])
-    seen[inside] = stretches[stretch[inside], :, column[inside]]
-    seen[~inside, : len(rest)] = rest[:, column[~inside]].T
-    seen *= sign[:, None]
-    seen[np.isnan(seen)] = -np.inf
-    highest = seen.max(axis=1)
-    first = (seen >= (highest - near)[:, None]).argmax(axis=1)
+    rest, stretches = values[whole * length :], values[: whole * length].reshape(whole, length, values.shape[1])
+    first, highest = np.empty(len(stretch), dtype=np.int64), np.empty(len(stretch))
+    for begin in range(0, len(stretch), MOST_AT_ONCE):
+        some = slice(begin, begin + MOST_AT_ONCE)
+        inside = stretch[some] < whole
+        seen = np.full((len(inside), length), np.nan)
+        seen[inside] = stretches[stretch[some][inside], :, column[some][inside]]
+        seen[~inside, : len(rest)] = rest[:, column[some][~inside]].T
+        seen *= sign[some, None]
+        seen[np.isnan(seen)] = -np.inf
+        highest[some] = seen.max(axis=1)
+        first[some] = (seen >= (highest[some] - near[some])[:, None]).argmax(axis=1)
     return length * stretch + first, highest
 
 

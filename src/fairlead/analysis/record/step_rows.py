@@ -22,7 +22,7 @@ KEPT = 0.5
 Integers = NDArray[np.int64]
 
 
-MOST_VALUES = 2**19
+MOST_VALUES = 2**18
 """Values of a batch, 4 MB, if its rows are not fewer than LEAST_ROWS."""
 LEAST_ROWS, MOST_ROWS = 64, 2048
 
@@ -42,7 +42,7 @@ class WholeSteps:
         if not len(ends):
             self._waiting = rows
             return None
-        self._waiting = rows.where(slice(int(ends[-1]), None))
+        self._waiting = rows.kept(int(ends[-1]))
         return rows.where(slice(0, int(ends[-1]) + 1))
 
     def rest(self) -> Rows | None:
@@ -72,7 +72,7 @@ class Batches:
             end = int(ends[next_end])
             yield rows.where(slice(begin, end + 1))
             begin = end
-        self._waiting, self._many = [rows.where(slice(begin, None))], len(rows.t) - begin
+        self._waiting, self._many = [rows.kept(begin)], len(rows.t) - begin
 
     def rest(self) -> Rows | None:
         """What is no complete batch yet."""
