@@ -8,8 +8,8 @@ import pytest
 
 import fairlead
 from fairlead.errors import ModelError
-from tests.scenes.blows import KINDS, WALL, blow
-from tests.scenes.impulses import defect, impacts
+from tests.scenes.blows import FLOOR, KINDS, WALL, Blow, Stop, blow
+from tests.scenes.impulses import Impact, defect, impacts
 
 ALLOWED = 1e-4
 """Speed [m/s] by which an impact may miss its conditions: gaps of 1e-7 m are open or closed by rounding."""
@@ -65,3 +65,19 @@ def test_stepping_refuses_rigid_stops_by_name(tmp_path):
     with pytest.raises(ModelError, match=r"(?s)rigid stop \(stop0.*rodas"):
         played(0, tmp_path, "stepping")
     assert played(0, tmp_path, "auto")[1].run["engine"] == "rodas"
+
+
+@pytest.mark.parametrize(("after", "least", "most"), [
+    ((1 / 2, 1 / 2, 0.0), 0.0, 1e-12),  # the second stop is open yet
+    ((1 / 3, 1 / 3, 1 / 3), 0.0, 1e-12),  # it is closed, and the wall is not
+    ((0.0, 0.0, 0.0), 0.0, 1e-12),  # all are
+    ((0.4, 0.4, 0.2), 0.19, 1.0),  # the second body goes on into the third
+    ((0.2, 0.3, 0.5), 0.1, 9.0),  # the first one pulls
+])  # fmt: skip
+def test_of_stops_that_are_near_each_may_take_part_or_not(after, least, most):
+    names = ("a", "b", "c")
+    stops = [Stop("first", "a", "b", 0.0), Stop("second", "b", "c", 0.0), Stop("last", "c", FLOOR, 0.0)]
+    scene = Blow(mass=dict.fromkeys(names, 1.0), stops=stops)
+    gaps = {"first": 0.0, "second": 5e-11, "last": 2e-9}
+    impact = Impact(1.0, dict(zip(names, (1.0, 0.0, 0.0), strict=True)), dict(zip(names, after, strict=True)), gaps)
+    assert least <= defect(scene, impact) <= most
