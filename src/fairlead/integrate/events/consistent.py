@@ -18,6 +18,7 @@ from math import isfinite
 from fairlead.integrate.codes import DONE, NOT_CONSISTENT, SINGULAR
 from fairlead.integrate.events.balance import ROUNDS, close_balance
 from fairlead.integrate.events.impulse import NO_IMPACT, find_change_of_speed, resolve_impact
+from fairlead.integrate.events.impulse_changes import any_support_moves, energies
 from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
 from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
@@ -55,6 +56,9 @@ def prepare_consistent(problem, point, linear):
 def project(problem, point, linear):
     """Bring held rows to rest by the impulse that conserves momentum.
 
+    The ledger takes it as an impact, by what it does to the speeds: the numbers by which bodies in circles share it are
+    without bounds. Integrals of forces take nothing of it.
+
     Not where that is more than rounding or would leave a relation of positions, as where its ratio goes through zero: a
     crank in its dead centre is not stopped by what stops the slider. The force that would be needed decides.
     """
@@ -76,10 +80,16 @@ def project(problem, point, linear):
     relations = problem.n_accelerated > 0
     if relations and (find_change_of_speed(problem, point) > NO_IMPACT or hands_slip_on(problem, point)):
         return
-    is_speed, quadrature = indices(problem.at_is_speed, n), indices(problem.at_quadrature, n)
+    is_speed, dv, back = indices(problem.at_is_speed, n), reals(point.at_u, n), reals(point.at_y_probe, n)
+    for k in range(n):  # of a place that would be the change of its rate
+        dv[k] = taken_away[k] if differential[k] == 1 and is_speed[k] == 1 else 0.0
+        back[k] = 0.0
+    if problem.dissipated_at >= 0:
+        gained, loss = energies(point, linear.matrices)
+        y[problem.dissipated_at] += loss
+        y[problem.supplied_at] += gained + loss if any_support_moves(problem, point) else 0.0
     for k in range(n):
-        if differential[k] == 1 and is_speed[k] + quadrature[k] > 0:  # for a place that would be the change of its rate
-            y[k] += taken_away[k]
+        y[k] += dv[k]
 
 
 @compiled

@@ -127,7 +127,8 @@ def look_beyond(m, h, rest):
     """How high the guards that were located at the end of the step h rise after it, into `g_late`.
 
     Along the parabola through the last half of the step, and for the time `rest` until the next time event: there a
-    load may turn. What is at a limit of what holds and goes no further is taken out of `fired`: a tie holds.
+    load may turn. What is at a limit of what holds and goes no further is taken out of `fired`: a tie holds. What is
+    within its tolerance of a limit and goes further is put in: of two that reach it at once IDA finds one.
     """
     guards, fired = m.events.guards, indices(m.events.guards.at_fired, m.events.guards.n_guards)
     ng = guards.n_guards
@@ -136,17 +137,23 @@ def look_beyond(m, h, rest):
     limit = indices(guards.at_limit_guard, ng)
     guards_at(m, 0.5, h, guards.at_g_left)
     guards_at(m, 0.75, h, guards.at_g_right)
-    s, kept = max(rest, 0.0) / h, 0
+    rooted, found = reals(m.events.settling.at_wrong, ng), 0
+    for i in range(ng):
+        rooted[i] = 0.0
     for k in range(guards.n_fired):
-        i = fired[k]
+        rooted[fired[k]] = 1.0
+    s = max(rest, 0.0) / h
+    for i in range(ng):
+        if rooted[i] == 0.0 and (limit[i] == 0 or end[i] < -tolerance[i]):
+            continue
         slope = (3.0 * end[i] - 4.0 * near[i] + half[i]) / 0.5
         curve = (end[i] - 2.0 * near[i] + half[i]) / 0.0625
         top = min(s, -slope / curve) if curve < 0.0 else s
         height[i] = max(end[i], end[i] + slope * top + 0.5 * curve * top * top)
         if limit[i] == 0 or height[i] > tolerance[i]:
-            fired[kept] = i
-            kept += 1
-    guards.n_fired = kept
+            fired[found] = i
+            found += 1
+    guards.n_fired = found
 
 
 @compiled
