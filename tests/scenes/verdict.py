@@ -36,8 +36,8 @@ SOON = 0.1
 OTHER = "rodas3p"
 METHOD: dict[str, Any] = {"method": OTHER}
 """The method of `rodas` that stands in where the rival refuses a scene: other stages, other order."""
-RIVAL_WALL = 3.0
-"""Time [s] after which a rival takes no part."""
+RIVAL_STEPS = 60_000
+"""Steps after which a rival takes no part; what it takes is no matter of how busy the machine is."""
 FINER = (1.0, 0.1, 0.01)
 """A rival that does not agree is asked for more of its accuracy: what counts is the best that it has to say, and how
 far that is from what it said before, which is its own estimate of its error."""
@@ -96,10 +96,10 @@ def _beside_rival(scene: Scene, comparison: _Comparison, engine: str) -> str:
     for what, settings in ((f"engine {RIVALS[engine]}", {"engine": RIVALS[engine]}), (f"method {OTHER}", METHOD)):
         if not scene.engines and engine == "rodas" and settings is not METHOD:
             continue
-        last, own = None, None
+        last, own = None, None  # a rival that does not agree and knows nothing of its own error says nothing
         try:
             for finer in FINER:
-                other = observed(model, finer * judged, max_wall=RIVAL_WALL, **settings)
+                other = observed(model, finer * judged, max_steps=RIVAL_STEPS, **settings)
                 if other.status != "finished":
                     why = f"{what}: {other.said}"
                     break
@@ -110,7 +110,7 @@ def _beside_rival(scene: Scene, comparison: _Comparison, engine: str) -> str:
         except FairleadError:
             why = f"{what}: refused"
             continue
-        if last is not None:
+        if own is not None:
             comparison.ask(last, what, judged, own)
             return ""
         if engine != "rodas":
