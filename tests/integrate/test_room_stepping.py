@@ -104,7 +104,7 @@ def state_off():
 def kept():
     from fairlead.integrate.stepping.history import choose_next_step
 
-    return entry(choose_next_step, ("run", "stepping.rule"), "db")
+    return entry(choose_next_step, ("run", "stepping.rule"), "db", "d")
 
 
 class Contacts:
@@ -470,8 +470,7 @@ def taken(errors, h=0.01):
     at, lengths = memory(numbers), []
     for error in errors:
         at.number["error"], at.number["h_wanted"] = error, h
-        kept()(at, h, False)
-        h = float(at.number["h_next"])
+        h = kept()(at, h, False)
         lengths.append(h)
     return lengths
 

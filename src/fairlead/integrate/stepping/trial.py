@@ -4,7 +4,7 @@
              or, where every step ends at its switch, the end in the zones of the start
              not solved, or an error above one: a shorter step
     arrive   zone changes go to the log, at the end of the step
-    begin    after a settlement the slopes before are those of the settled point
+    settled  after a settlement the slopes before are those of the settled point
 
 A step is repeated, in the order in which these are looked for,
 
@@ -43,7 +43,7 @@ from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, 
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
 from fairlead.integrate.stepping.instants import log_inside
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
-from fairlead.integrate.stepping.located_step import balance_end, holds_with_slip, remember_middle, stop_slip
+from fairlead.integrate.stepping.located_step import CAREFUL, balance_end, holds_with_slip, remember_middle, stop_slip
 from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     THETA_LEAST,
@@ -192,15 +192,12 @@ def step_over_kink(run, point, rule, h):
 
 @compiled
 def accept_step(m, h, crossed):
-    """Accept the step up to its crossing or its end; how long the next is to be."""
-    run, recorder, rule = m.run, m.recorder, m.stepping.rule
+    """Accept the step up to its crossing or its end."""
+    recorder, rule = m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > THETA_LEAST else 0.0
-    repeated = run.retried > 0
     accept(m, h, crossed)
-    if run.adaptive == 1:
-        choose_next_step(run, rule, h, repeated)
 
 
 @compiled
@@ -255,9 +252,27 @@ def arrive_with_zones(m):
 def begin_again(m):
     """After a settlement nothing is known of the steps before; it may be the one after which steps end at switches."""
     rule = m.stepping.rule
+    rule.locates = 1 if will_locate(rule) else 0
     rule.locates_for = max(rule.locates_for - 1, 0)
-    rule.locates = 1 if rule.always_locates == 1 or rule.locates_for > 0 else 0
-    begin_history(m.run, m.point, m.linear.matrices, m.stepping)
+    begin_history(m.run, m.point, m.stepping)
 
 
-METHOD = Method(attempt_stepping, arrive_with_zones, begin_again)
+@compiled
+def will_locate(rule):
+    """True if steps end at every switch after the settlement that goes on."""
+    return rule.always_locates == 1 or rule.locates_for > 1
+
+
+@compiled
+def error_of_first(m):
+    """The leading error of the first step, A (h/T)^3 / 12, of which one weight or one CAREFUL-th of it is allowed."""
+    return 12.0 * (1.0 / CAREFUL if will_locate(m.stepping.rule) else 1.0), 3.0
+
+
+@compiled
+def length_after(m):
+    """How long the step after an accepted one is to be."""
+    return choose_next_step(m.run, m.stepping.rule, m.run.h, m.run.retried > 0)
+
+
+METHOD = Method(attempt_stepping, arrive_with_zones, begin_again, length_after, error_of_first)
