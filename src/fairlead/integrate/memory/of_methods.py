@@ -63,6 +63,8 @@ RULE = Struct(
         "mean_before": "n",  # algebraic unknowns in the middle of the last step, where steps end at every switch
         "move": "n",  # the last solution, for the line search (residual.py)
         "chord_end": "n",  # scratch: the end before it is moved to judge captures (jump_inside.py)
+        "chord_defect": "n",  # c of third_order.py: f with motions that are given on their chord, less f
+        "half_move": "n",  # scratch: d/2 of third_order.py while g is solved for
         "kick": "n",  # by row, of a law that jumps: what its mean is asked to be
         "kick_first": "n", "kick_second": "n",  # and what it adds in the two solves that move the end (third_order.py)
     },
@@ -149,7 +151,8 @@ CONTACTS = Struct(
         # scratch: zones while laws are asked in others; from remember_before_switch on those that a jump puts back
         "zones_probed": "n_machines",
         "first_guard": "n_machines",
-        "met": "n_machines",  # scratch, 0 between passes: fronts (active_set.MET), laws that jump (jump_inside.py)
+        "met": "n_machines",  # scratch, 0 between passes: what a front has come to (active_set.MET)
+        "jumped": "n_machines",  # scratch, 0 between passes: 1 for machines whose law has jumped (jump_inside.py)
         "hold_row": "n_machines",  # the first row that a machine is known to hold; -1: none
         "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
         "switched": "n_machines",  # machines that left their zone in the step, with a place for it

@@ -24,8 +24,7 @@ one, contacts are let go that must be caught again, and catching takes with it s
 LONGEST_FRONT = 64
 MET = 1
 """What `met` says of a machine that lets go. It is 0 of others, and the place in `fired` + 2 of one that was handed a
-load in the round that is going on (`hand_on_from`). Between two passes all are 0, and jump_inside.py marks there which
-laws have jumped."""
+load in the round that is going on (`hand_on_from`). Between two passes all are 0."""
 
 
 @compiled
