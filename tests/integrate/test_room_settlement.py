@@ -64,7 +64,7 @@ def follows():
 
 @functools.cache
 def at_limit():
-    from fairlead.integrate.stepping.instants import load_at_limit
+    from fairlead.integrate.stepping.switch_inside import load_at_limit
 
     return entry(load_at_limit, ("",), "i", "d")
 

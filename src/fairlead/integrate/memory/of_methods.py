@@ -151,7 +151,7 @@ CONTACTS = Struct(
         # scratch: zones while laws are asked in others; from remember_before_switch on those that a jump puts back
         "zones_probed": "n_machines",
         "first_guard": "n_machines",
-        "met": "n_machines",  # scratch, 0 between passes: what a front has come to (active_set.MET)
+        "met": "n_machines",  # scratch, 0 between passes: what a front has come to (slip_fronts.MET)
         "jumped": "n_machines",  # scratch, 0 between passes: 1 for machines whose law has jumped (jump_inside.py)
         "hold_row": "n_machines",  # the first row that a machine is known to hold; -1: none
         "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
@@ -163,4 +163,4 @@ CONTACTS = Struct(
         "only_kinks": "n_machines",  # 1 for machines that are but pieces of continuous tables
     },
 )  # fmt: skip
-"""`stepping`: who holds what and hands its load to whom (active_set.py), what a step may have missed."""
+"""`stepping`: who holds what and hands its load to whom (slip_fronts.py), what a step may have missed."""

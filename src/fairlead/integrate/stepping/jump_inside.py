@@ -132,7 +132,7 @@ def ask_of_rows(m, h):
 def note_kinds(guards, contacts, sure):
     """Of which kinds laws jump; if `sure`, also which guards need not be asked again in the zone in which they fired.
 
-    Later passes of a step are sure of jumps only: guesses follow from what is continuous (active_set.py), and are good
+    Later passes of a step are sure of jumps only: guesses follow from what is continuous (slip_fronts.py), and are good
     for what lets go by itself.
     """
     n = guards.n_guards

@@ -41,7 +41,6 @@ from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, show_inside
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
-from fairlead.integrate.stepping.instants import log_inside
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
 from fairlead.integrate.stepping.located_step import CAREFUL, balance_end, holds_with_slip, remember_middle, stop_slip
 from fairlead.integrate.stepping.repeated import (
@@ -59,6 +58,7 @@ from fairlead.integrate.stepping.repeated import (
     settle_jump,
 )
 from fairlead.integrate.stepping.step_error import find_error, keep_larger
+from fairlead.integrate.stepping.switch_inside import log_inside
 from fairlead.integrate.stepping.theta_step import give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 
