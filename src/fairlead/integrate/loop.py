@@ -102,7 +102,7 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                     return PAUSED
                 attempts -= 1
                 status = attempt(m)
-                if status > FINISHED and begins_without_answer(m, status):
+                if status > FINISHED and begins_without_answer(problem, run, status):
                     mend_point(m)
                     status = GO_ON
                 if run.phase == RECORD:
@@ -139,12 +139,12 @@ def ready(problem, run, point, recorder):
 
 
 @compiled
-def begins_without_answer(m, status):
+def begins_without_answer(problem, run, status):
     """True if no step succeeds since its start, not settled yet, may lie where its zones have no answer (corners.py).
 
     What `stepping` has of forces at the end of a step is extrapolated, beyond the corner by what it is off.
     """
-    return m.problem.n_pressing > 0 and m.run.judged == 0 and status in (SINGULAR_MATRIX, STEP_FLOOR)
+    return problem.n_pressing > 0 and run.judged == 0 and status in (SINGULAR_MATRIX, STEP_FLOOR)
 
 
 @compiled

@@ -122,7 +122,7 @@ def arrive(m, by_equations):
             run.phase = SETTLE
         else:
             recorder.rows -= 1
-    elif moves_apart(m):
+    elif moves_apart(problem, point, linear):
         write_row(problem, recorder, point.t, as_shown(m, point.at_y, True), BEFORE)
         remember(problem, point, m.events.loads)
         guards.n_fired = 0

@@ -213,7 +213,7 @@ def log_inside(m):
     for z in range(nz):
         if zones[z] != before[z]:
             if left[z] == NOT_SEEN:
-                left[z] = load_at_limit(m, z)
+                left[z] = load_at_limit(m.run, m.events.guards, m.stepping, z)
             k = count
             while k > 0 and left[in_order[k - 1]] > left[z]:
                 in_order[k] = in_order[k - 1]
@@ -228,15 +228,15 @@ def log_inside(m):
 
 
 @compiled
-def load_at_limit(m, z):
+def load_at_limit(run, guards, stepping, z):
     """The share of the step after which the force of machine z is at its limit as its load went before; 1: never."""
-    guards, rule, contacts = m.events.guards, m.stepping.rule, m.stepping.contacts
+    rule, contacts = stepping.rule, stepping.contacts
     machine, limit = indices(guards.at_guard_machine, guards.n_guards), indices(guards.at_limit_guard, guards.n_guards)
     g, earlier = reals(guards.at_g, guards.n_guards), reals(contacts.at_g_before, guards.n_guards)
     first, i = 1.0, indices(contacts.at_first_guard, contacts.n_machines)[z]
     while rule.gap > 0.0 and 0 <= i < guards.n_guards and machine[i] == z:
         if limit[i] == 1 and g[i] > earlier[i]:
             to_limit = -g[i] * rule.gap_before / (g[i] - earlier[i])
-            first = min(first, max(to_limit - rule.gap, 0.0) / m.run.h)
+            first = min(first, max(to_limit - rule.gap, 0.0) / run.h)
         i += 1
     return first

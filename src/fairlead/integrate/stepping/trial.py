@@ -100,8 +100,8 @@ def finish_inside(m, h, status):
     if status == JUMPS or (status == DONE and find_due_jump(m, h)):
         if jump_at_start(run, point, rule):
             return settle_jump(m)
-        if not localise_jump(m, h):
-            return end_at_switch(m, min(rule.t_cut - point.t, h), TOO_FAR)
+        if not localise_jump(point, guards, settling, stepping, h):
+            return end_at_switch(run, guards, stepping, min(rule.t_cut - point.t, h), TOO_FAR)
         if status == JUMPS:
             status = solve_in_zones(m, h)
             if status == INACCURATE:
@@ -118,17 +118,17 @@ def finish_inside(m, h, status):
     judge_swings(problem, run, point, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
-    if find_latch_ahead(m):
+    if find_latch_ahead(run, guards, stepping):
         return settle_at_start(m)
     if find_switch_passed(m, h):
         blame(run, point)
-        return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
+        return end_at_switch(run, guards, stepping, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
     if exchange.massless == 1:
         end_massless(problem, point, linear, exchange, h)
     accept_step(m, h, False)
     show_inside(m)
     if rule.localising > 0:
-        settle_at_end(m)
+        settle_at_end(run, guards, stepping)
     return GO_ON
 
 
@@ -201,11 +201,11 @@ def accept_step(m, h, crossed):
 
 
 @compiled
-def settle_at_end(m):
+def settle_at_end(run, guards, stepping):
     """Have the end of an accepted step settled, at which a law jumps."""
-    m.run.crossed = 1
-    m.events.guards.n_fired = 0
-    m.stepping.rule.localising = 0
+    run.crossed = 1
+    guards.n_fired = 0
+    stepping.rule.localising = 0
 
 
 @compiled
