@@ -263,7 +263,7 @@ def log_change(m, z):
     write_event(m.point, settling, m.recorder, z, before[z], zones[z], guard)
     settling.switches += 1
     indices(settling.at_switches_by_machine, nz)[z] += 1
-    if run.narrowed == 1 and indices(settling.at_rim, nz)[z] == 1:
+    if run.narrowed == 1 and indices(settling.at_boundary, nz)[z] == 1:
         run.woken = 1
     watch_chatter(m, z)
 

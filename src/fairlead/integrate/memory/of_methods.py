@@ -77,8 +77,8 @@ RULE = Struct(
 EXCHANGE = Struct(
     copies=("n", "n_machines", "zones",),
     integers=(
-        "driven",  # a contact holds on a surface whose speed varies
-        "massless",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
+        "support_accelerates",  # a contact holds on a surface whose speed varies
+        "algebraic_speeds",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
         "newly_held",  # rows hold since the last solve that did not before: their slip is to be evaluated
         "unchecked",  # the residual was not looked at since the factors are those in force
         "n_hold_mass", "n_hold_slope", "n_hold_share",
@@ -99,7 +99,7 @@ EXCHANGE = Struct(
     indices={
         # the contacts in the zones in force
         "holds": "n",  # 1 for rows that hold now
-        "of_massless": "n",  # 1 for rows that have held a node without mass
+        "of_algebraic_speed": "n",  # 1 for rows that have held a node without mass
         "caught": "n",  # 1 for rows that hold now and did not at the start of the step
         # entries of M in rows that may hold: place, row, column; of J to what moves; of J to other forces, in a circle
         "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
@@ -117,7 +117,8 @@ EXCHANGE = Struct(
 )  # fmt: skip
 """`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (row_cache.py).
 
-`holds`, `caught`, `of_massless`, `driven` and `massless` say besides what holds now: all of the room reads them.
+`holds`, `caught`, `of_algebraic_speed`, `support_accelerates` and `algebraic_speeds` say besides what holds now: all of
+the room reads them.
 """
 
 CONTACTS = Struct(

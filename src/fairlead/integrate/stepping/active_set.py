@@ -67,7 +67,7 @@ def evaluate_guards_of_step(m, h):
     evaluate_guards(problem, run, guards, point.t + h, point.at_y_end, guards.at_g_end)
     constant = problem.linear == 1 and contacts.limits_vary == 0
     seldom = constant and settling.one_by_one == 0 and (settling.passes > 0 or run.steps % LOOK_AT_LIMITS != 0)
-    if exchange.massless == 0 and (contacts.has_limits == 0 or seldom):
+    if exchange.algebraic_speeds == 0 and (contacts.has_limits == 0 or seldom):
         return
     find_theta_point(point, rule)
     read_on_chord(problem, point, rule.theta_now, h)
@@ -83,12 +83,12 @@ def evaluate_guards_of_step(m, h):
             if abs(g[i] - g_at_theta[i]) > tolerance[i]:
                 contacts.limits_vary = 1
             g[i] = g_at_theta[i]
-    if exchange.massless == 1:
+    if exchange.algebraic_speeds == 1:
         machine = indices(problem.at_guard_machine, problem.n_guards)
         hold_row = indices(contacts.at_hold_row, problem.n_machines)
-        of_massless = indices(exchange.at_of_massless, problem.n)
+        of_algebraic_speed = indices(exchange.at_of_algebraic_speed, problem.n)
         for i in range(problem.n_guards):
-            if machine[i] >= 0 and hold_row[machine[i]] >= 0 and of_massless[hold_row[machine[i]]] == 1:
+            if machine[i] >= 0 and hold_row[machine[i]] >= 0 and of_algebraic_speed[hold_row[machine[i]]] == 1:
                 g[i] = g_at_theta[i]
 
 

@@ -19,7 +19,7 @@ A step is repeated, in the order in which these are looked for,
 
 repeated.py does that; the last two on the right are as of `rodas` (events/given_up.py, one_step.py). In three cases it
 is no shorter step that follows: the loop finds other pivots; it takes the step with the whole problem where a machine
-changes that is shared with what rests (a rim); the start is settled, also where a law jumps there.
+changes that is shared with what rests (a boundary); the start is settled, also where a law jumps there.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
-from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, show_inside
+from fairlead.integrate.stepping.dense_output import end_algebraic_speeds, hold_inside, show_inside
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
 from fairlead.integrate.stepping.located_step import CAREFUL, balance_end, holds_with_slip, remember_middle, stop_slip
@@ -108,7 +108,7 @@ def finish_inside(m, h, status):
                 return halve_or_replan(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
-    if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
+    if run.narrowed == 1 and settling.passes > 0 and boundary_changed(settling, m.stepping.contacts):
         give_back_zones(guards, stepping)
         return WIDEN
     if rule.theta_now == MIDDLE:
@@ -123,8 +123,8 @@ def finish_inside(m, h, status):
     if find_switch_passed(m, h):
         blame(run, point)
         return end_at_switch(run, guards, stepping, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
-    if exchange.massless == 1:
-        end_massless(problem, point, linear, exchange, h)
+    if exchange.algebraic_speeds == 1:
+        end_algebraic_speeds(problem, point, linear, exchange, h)
     accept_step(m, h, False)
     show_inside(m)
     if rule.localising > 0:
@@ -169,8 +169,8 @@ def end_located(m, h):
     if error <= 1.0:
         worst = point.worst
         error = keep_larger(point, error, worst, balance_end(m, h))
-    if exchange.massless == 1:
-        end_massless(problem, point, linear, exchange, h)
+    if exchange.algebraic_speeds == 1:
+        end_algebraic_speeds(problem, point, linear, exchange, h)
     return error
 
 
@@ -219,13 +219,13 @@ def solve_in_zones(m, h):
 
 
 @compiled
-def rim_changed(settling, contacts):
+def boundary_changed(settling, contacts):
     """True if the step changed a machine that keeps the rest of the problem at rest."""
     zones = indices(settling.at_zones, settling.n_machines)
     before = indices(contacts.at_zones_at_start, settling.n_machines)
-    rim, found = indices(settling.at_rim, settling.n_machines), False
+    boundary, found = indices(settling.at_boundary, settling.n_machines), False
     for z in range(settling.n_machines):
-        found = found or (rim[z] == 1 and zones[z] != before[z])
+        found = found or (boundary[z] == 1 and zones[z] != before[z])
     return found
 
 
