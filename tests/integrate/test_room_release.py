@@ -47,7 +47,7 @@ def pushed():
 def contradict():
     from fairlead.integrate.events.torn_loose import find_contradictions
 
-    return entry(find_contradictions, ("",), "d", "b")
+    return entry(find_contradictions, ("problem", "point"), "d", "b")
 
 
 @functools.cache
@@ -247,7 +247,7 @@ def consistent():
     @compiled
     def full(m, iterations):
         status = prepare_consistent(m.problem, m.point, m.linear)
-        return status if status != DONE else newton(m, iterations)
+        return status if status != DONE else newton(m.problem, m.point, m.linear, iterations)
 
     return entry(full, ("",), "i", "i"), entry(solve_point, ("",), "i", "i")
 
