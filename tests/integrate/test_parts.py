@@ -25,7 +25,7 @@ OF_A_SETTLEMENT = {
     "no_pivots",
 }  # fmt: skip
 OF_A_STEP = {
-    "jacobian_fresh", "massless", "linearised", "newly_held", "unchecked", "expecting", "rows_slip",
+    "jacobian_fresh", "algebraic_speeds", "linearised", "newly_held", "unchecked", "expecting", "rows_slip",
     "core_kind",
     "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "assumed",
     "invalidated",

@@ -13,14 +13,14 @@ from tests.integrate.rooms import entry, fields, memory
 
 @functools.cache
 def handed():
-    from fairlead.integrate.stepping.active_set import hand_on
+    from fairlead.integrate.stepping.slip_fronts import redistribute_load
 
-    return entry(hand_on, ("events.guards", "stepping.contacts"))
+    return entry(redistribute_load, ("events.guards", "stepping.contacts"))
 
 
 @functools.cache
 def line():
-    from fairlead.integrate.stepping.active_set import next_in_line
+    from fairlead.integrate.stepping.slip_fronts import next_in_line
 
     return entry(next_in_line, ("stepping.contacts",), "ii", "i")
 

@@ -33,6 +33,20 @@ def rejected():
 
 
 @functools.cache
+def first():
+    from fairlead.integrate.point.controller import longest_first_step
+
+    return entry(longest_first_step, ("run",), "dddd", "d")
+
+
+@functools.cache
+def ended():
+    from fairlead.integrate.events.pace import end_attempts
+
+    return entry(end_attempts, ("run",), "d")
+
+
+@functools.cache
 def bend():
     from fairlead.integrate.point.curvature import curvature_beyond_rounding
 
@@ -85,6 +99,30 @@ def test_a_step_that_is_rejected_gets_shorter_within_limits_and_by_a_quarter_whe
     assert factors[2] == pytest.approx(0.9 * 30.0**-0.2, rel=0.1)  # rounded to even steps
     assert factors[-1] >= 0.19
     assert factor(math.nan) == 0.25
+
+
+@pytest.mark.parametrize("order", [2.0, 3.0, 5.0])
+@pytest.mark.parametrize("share", [0.2, 1.2, 12.0])
+def test_the_leading_error_of_a_first_step_is_one_weight(share, order):
+    """Of A sin(t/T), of the size A in weights: |y'| = A/T, |y''| = A/T^2. Its length is a power of the root of two."""
+    amplitude, scale = 70.0, 0.03
+    h = first()(memory({"stop": 1.0}), amplitude / scale, amplitude / scale**2, share, order)
+    lengthened = (amplitude * (h / scale) ** order / share) ** (1.0 / order)  # by rounding h^2 to a power of two
+    assert 0.999 / 1.5 <= lengthened**2 <= 1.001 * 4.0 / 3.0
+    assert math.log2(h) * 2 == pytest.approx(round(math.log2(h) * 2), abs=1e-9)
+
+
+def test_a_first_step_of_what_is_straight_or_begins_at_rest_has_no_leading_error():
+    assert first()(memory({"stop": 1.0}), 5.0, 1e-9, 12.0, 3.0) == math.inf
+    assert first()(memory({"stop": 1.0}), 0.0, 5.0, 12.0, 3.0) == math.inf
+
+
+@pytest.mark.parametrize("adaptive", [0, 1])
+def test_after_an_accepted_step_the_next_is_as_long_as_the_method_says_unless_steps_are_fixed(adaptive):
+    at = memory({"adaptive": adaptive, "h_next": 0.5, "error": 0.25, "retried": 3, "mended": 1})
+    ended()(at, 0.125)
+    assert at.number["h_next"] == (0.125 if adaptive else 0.5)
+    assert (at.number["retried"], at.number["mended"], at.number["last_error"]) == (0, 0, 0.25)
 
 
 @pytest.mark.parametrize("real", [0.0, 5.0])

@@ -64,9 +64,9 @@ def follows():
 
 @functools.cache
 def at_limit():
-    from fairlead.integrate.stepping.instants import load_at_limit
+    from fairlead.integrate.stepping.switch_inside import load_at_limit
 
-    return entry(load_at_limit, ("",), "i", "d")
+    return entry(load_at_limit, ("run", "events.guards", "stepping"), "i", "d")
 
 
 def settled(values, slopes, inertia):

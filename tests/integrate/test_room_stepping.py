@@ -104,7 +104,7 @@ def state_off():
 def kept():
     from fairlead.integrate.stepping.history import choose_next_step
 
-    return entry(choose_next_step, ("run", "stepping.rule"), "db")
+    return entry(choose_next_step, ("run", "stepping.rule"), "db", "d")
 
 
 class Contacts:
@@ -133,7 +133,7 @@ class Contacts:
             **{name: np.zeros(KNOWN_ZONES * contacts) for name in ("known", "known_of_kind", "known_constants")},
             **{name: np.zeros(contacts) for name in ("zones_linearised", "exchanged_machines", "only_kinks")},
             "known_slopes": np.zeros(KNOWN_ZONES * len(found["slope"])), "holds": np.zeros(n), "caught": np.zeros(n),
-            "known_masses": np.zeros(KNOWN_ZONES * len(found["mass"])), "of_massless": np.zeros(n),
+            "known_masses": np.zeros(KNOWN_ZONES * len(found["mass"])), "of_algebraic_speed": np.zeros(n),
         }  # fmt: skip
         of_reals = ("known_slopes", "known_masses", "known_constants")
         for name, values in given.items():
@@ -444,7 +444,7 @@ def test_slip_that_a_search_leaves_in_a_row_that_was_caught_is_in_its_residual()
     at = memory(
         {"n": 3, "n_hold_mass": 1, "n_jacobian": 3, "n_mass": 3, "theta_now": 0.5, "dense": 1},
         y=[1.0, 0.0, 0.0], y_end=[0.0, 0.0, 10.0], move=[-0.5, 0.0, 5.0], holds=[0, 1, 0], caught=[0, 1, 0],
-        hold_mass_row=[1], of_massless=np.zeros(3), differential=[1, 0, 1], controlled=np.zeros(3),
+        hold_mass_row=[1], of_algebraic_speed=np.zeros(3), differential=[1, 0, 1], controlled=np.zeros(3),
         quadrature=np.zeros(3), row_scale=[0.0, 1.0, 1.0], mass_starts=[0, 2, 2, 3], mass_rows=[0, 1, 2],
         mass_columns=[0, 0, 2], mass=np.ones(3), jacobian_starts=np.zeros(4), jacobian_rows=np.zeros(3),
         jacobian=np.zeros(3), **{name: np.zeros(3) for name in ("kick", "b", "v", "f", "u", "minus_slip")},
@@ -470,8 +470,7 @@ def taken(errors, h=0.01):
     at, lengths = memory(numbers), []
     for error in errors:
         at.number["error"], at.number["h_wanted"] = error, h
-        kept()(at, h, False)
-        h = float(at.number["h_next"])
+        h = kept()(at, h, False)
         lengths.append(h)
     return lengths
 

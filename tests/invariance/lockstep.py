@@ -32,10 +32,10 @@ GROWN = 10.0
 CAUSES = ("rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
           "rejected_diverged", "rejected_singular")  # fmt: skip
 FACTS = (
-    "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now", "massless", "driven",
-    "limits_vary", "expecting", "assumed", "invalidated", "allowed", "allowed_before", "block_steps", "n_switched",
-    "t_cut", "localising", "h_wanted", "growth", "landing", "crossed", "cut_at", "stalls", "look",
-    "nearness", "linearised", "searched",
+    "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now",
+    "algebraic_speeds", "support_accelerates", "limits_vary", "expecting", "assumed", "invalidated", "allowed",
+    "allowed_before", "block_steps", "n_switched", "t_cut", "localising", "h_wanted", "growth", "landing",
+    "crossed", "cut_at", "stalls", "look", "nearness", "linearised", "searched",
 )  # fmt: skip
 """What is shown of a step beside its length and its error."""
 

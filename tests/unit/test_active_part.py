@@ -74,16 +74,16 @@ def test_what_moves_is_kept_with_a_margin_of_equations(row, margin, kept, machin
     assert [system.machine_names[k] for k in moving.machines] == [f"under_{name}" for name in machines]
 
 
-@pytest.mark.parametrize(("margin", "rim"), [(0, "bcd"), (1, "bcd"), (2, "cd")])
-def test_the_rim_is_what_holds_the_blocks_that_are_left_out(row, margin, rim):
+@pytest.mark.parametrize(("margin", "boundary"), [(0, "bcd"), (1, "bcd"), (2, "cd")])
+def test_the_boundary_is_what_holds_the_blocks_that_are_left_out(row, margin, boundary):
     """With a margin of one b is kept, but the force under c is left out, which varies as soon as b lets go."""
     system, y = row("a")
     moving = system.narrowing.moving(0.0, y, margin, 0.95)
-    found = named(system.machine_names, moving.rim)
-    assert found == {f"under_{name}" for name in rim}
+    found = named(system.machine_names, moving.boundary)
+    assert found == {f"under_{name}" for name in boundary}
     part = system.narrowing.part(0.0, y, moving)
     inside = [system.machine_names[k] for k in part.machines]
-    assert named(inside, part.rim) == found & set(inside)
+    assert named(inside, part.boundary) == found & set(inside)
 
 
 def test_a_whole_of_which_too_much_moves_is_left_whole(row):

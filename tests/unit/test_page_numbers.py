@@ -13,6 +13,7 @@ states. Not replayed, for they take minutes to hours of processor time, or are t
 | routes.md | elements, line in the sea, idle line | `route_mesh.py`, `sea_forms.py`, `idle_line.py` of `benchmarks` |
 | routes.md | hose and core, but for `single_bend` | `benchmarks/hose_estimates.py` |
 | stability.md | the page | `make hard` |
+| stepping.md | slip fronts | `benchmarks/slip_fronts.py` |
 | studies.md | the study of the route; laws of the servo | `benchmarks/route_study.py`; `fairlead fit` |
 | bend_tables.md | independent engines, robustness list | `benchmarks/bend_table.py`, `benchmarks/bend_variants.py` |
 

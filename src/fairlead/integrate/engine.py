@@ -5,7 +5,8 @@ A method of one's own is one file: compiled functions, `METHOD = method_of(OneSt
 holds, settlements, records and budgets are those of all methods. What `prepare_interpolant` leaves is the D of
 point/interpolant.py. What the method remembers of earlier steps it keeps in the arena, in the room for the stages of a
 tableau (`method.at_K`), as tests/integrate/bdf2.py does. Steps go with error^-error_exponent, 1/(order of the error +
-1): unless `numbers` sets that, it is of the tableau of `rodas` (`Run.method`).
+1): unless `numbers` sets that, it is of the tableau of `rodas` (`Run.method`). A `Method` may choose the length of the
+next step itself, and say by which leading error its first step is bounded.
 """
 
 from __future__ import annotations

@@ -190,10 +190,10 @@ class Narrowed(Protocol):
         moving(t, y, margin, most, part)   .kept [n], .machines, .sure (it needs no proof by the run so far); None if
                             that is not worth while beside the part in force (or None)
         looked              what the last look found: all that it remembers
-        part(t, y, that)    .problem, .unknowns, .machines, .guards (places in the whole), .rim (1 for machines of the
-                            part whose change sets more in motion), .sure; or None. give_back(t, y) puts into the y of
-                            the whole what follows from the part, carry(v) into such a vector the slopes of what is
-                            carried; placed(piece, whole) is the part at work in other memory
+        part(t, y, that)    .problem, .unknowns, .machines, .guards (places in the whole), .boundary (1 for machines
+                            of the part whose change sets more in motion), .sure; or None. give_back(t, y) puts into
+                            the y of the whole what follows from the part, carry(v) into such a vector the slopes of
+                            what is carried; placed(piece, whole) is the part at work in other memory
         """
 
 

@@ -7,12 +7,12 @@
                                                            # not so where `stepping` finds the zones of the end
                  rejected: shrink h; TRY again
                  given up: SETTLE at the point
-                 accepted: up to the first crossing, or to the end
+                 accepted: up to the first crossing, or to the end; method.next_length
         RECORD   grid points of the piece
         ARRIVE   method.arrive: point = end of the piece   # the major step
                  if crossing: SETTLE on the guards that fired
                  if time event: at_time, and SETTLE if anything changed
-        SETTLE   switch zones until no guard fires; method.settled; choose the next step; TRY
+        SETTLE   switch zones until no guard fires; the first step, by method.leading_error; method.settled; TRY
 
 The loop returns to Python with a status when a slice is used up, a buffer is full, the planned
 pivots fail, a smaller part of the problem may do or no longer does (parts.py), or the run ends, and
@@ -40,11 +40,18 @@ from fairlead.integrate.codes import (
     WIDEN,
 )
 from fairlead.integrate.events.arrival import arrive, settle_here, start
+from fairlead.integrate.events.pace import end_attempts, length_by_control
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.memory.foreign import compiled, memory_at
 from fairlead.integrate.one_step import OneStep, mend_point, trial_of
 from fairlead.integrate.record.rows import record_piece, there_is_room
+
+
+@compiled
+def not_bounded(m):
+    """What a method says of its first step that does not bound it."""
+    return 0.0, 1.0
 
 
 class Method(NamedTuple):
@@ -56,6 +63,11 @@ class Method(NamedTuple):
     """arrive(m) -> status: go on to the end of the piece."""
     settled: Callable[..., Any]
     """settled(m): after every settlement; what was known of the steps before holds no longer."""
+    next_length: Callable[..., Any] = length_by_control
+    """next_length(m) -> [s]: how long the step after an accepted one is to be, which was `run.h` long."""
+    leading_error: Callable[..., Any] = not_bounded
+    """leading_error(m) -> share, order: a first step h has the error A (h/T)^order / share, in weights, of a motion of
+    amplitude A and time scale T; before `settled`. A share of 0: its first step is bounded by no such error."""
 
 
 @compiled
@@ -76,7 +88,7 @@ def method_of(steps: OneStep) -> Method:
 
 def loop_of(method: Method) -> Callable[[int, int], int]:
     """advance(address of the structs, attempts) -> status: run on for at most so many trial steps."""
-    attempt, arrive_at, settled = method
+    attempt, arrive_at, settled, next_length, leading_error = method
 
     def advance(address, attempts):
         m = memory_at(address)
@@ -90,15 +102,18 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                     return PAUSED
                 attempts -= 1
                 status = attempt(m)
-                if status > FINISHED and begins_without_answer(m, status):
+                if status > FINISHED and begins_without_answer(problem, run, status):
                     mend_point(m)
                     status = GO_ON
+                if run.phase == RECORD:
+                    end_attempts(run, next_length(m))
             elif run.phase == RECORD:
                 status = write_piece(m)
             elif run.phase == ARRIVE:
                 status = arrive_at(m)
             elif run.phase == SETTLE:
-                status = settle_here(m)
+                share, order = leading_error(m)
+                status = settle_here(m, share, order)
                 if status == GO_ON and run.phase == TRY:
                     settled(m)
             elif run.phase == WAKE:
@@ -124,12 +139,12 @@ def ready(problem, run, point, recorder):
 
 
 @compiled
-def begins_without_answer(m, status):
+def begins_without_answer(problem, run, status):
     """True if no step succeeds since its start, not settled yet, may lie where its zones have no answer (corners.py).
 
     What `stepping` has of forces at the end of a step is extrapolated, beyond the corner by what it is off.
     """
-    return m.problem.n_pressing > 0 and m.run.judged == 0 and status in (SINGULAR_MATRIX, STEP_FLOOR)
+    return problem.n_pressing > 0 and run.judged == 0 and status in (SINGULAR_MATRIX, STEP_FLOOR)
 
 
 @compiled

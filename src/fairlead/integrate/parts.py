@@ -1,7 +1,7 @@
 """What the loop works on: the whole problem, or the part of it that moves.
 
 A problem that can say what is at rest (`narrowing`, see facts.py) is cut down to what moves, with a margin, when
-that is much less; and woken when a contact at the rim of the part lets go. Steps, switches and error control are
+that is much less; and woken when a contact at the boundary of the part lets go. Steps, switches and error control are
 those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
 runs do the same.
 """
@@ -28,20 +28,21 @@ LOOK_COST, LOOK_BASE = 30_000, 5
 MOST = 0.5
 """Share of the unknowns that a part may have; more is not worth it."""
 MARGIN = 12
-"""Equations between what moves and the rim of the first part."""
+"""Equations between what moves and the boundary of the first part."""
 WORTH = 4
 """A part that served for as many steps as this many cuts cost was worth it."""
 FEWER, SURELY_FEWER = 0.6, 0.85
-"""A part is cut anew when that leaves this share of it; and where what is left out can only come back by the rim."""
+"""A part is cut anew when that leaves this share of it; and where what is left out can only come back over the
+boundary."""
 WAIT_AGAIN = 2
-"""Steps of the whole after the rim of such a part has changed, if it had been worth it."""
+"""Steps of the whole after the boundary of such a part has changed, if it had been worth it."""
 FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 BLOCKED = 1e300
 
 CARRIED = (
     "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "quadratures_off", "grid_next", "stalls",
     "total_events", "stop_asked", "failed", "localising", "locates", "damps", "always_locates",
-    "locates_for", "driven", "t", "h", "h_wanted", "h_next",
+    "locates_for", "support_accelerates", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
     "theta_raise", "gap", "gap_before", "t_cut", "t_kink", "growth", "t_growth", "swing_step", "allowed",
@@ -135,7 +136,7 @@ class Scope:
         return not outside.any()
 
     def wake(self) -> None:
-        """Go on with the whole, at the point where the rim changed."""
+        """Go on with the whole, at the point where the boundary changed."""
         settled = bool(self.memory.number["woken"])
         steps, sure = int(self.memory.number["steps"]), self.part.sure
         self._spread()
@@ -177,7 +178,7 @@ class Scope:
                     memory.array[name][:] = self.whole.array[name][places]
         for name in CARRIED:
             memory.number[name] = self.whole.number[name]
-        memory.array["rim"][:] = part.rim
+        memory.array["boundary"][:] = part.boundary
         memory.number["narrowed"], memory.number["narrow_at"] = 1, steps + WORTH * self._cost
         self._make_fresh(memory)
         FILL(part.problem.callbacks["mass"])(part.problem.context, memory.array["mass"].ctypes.data)

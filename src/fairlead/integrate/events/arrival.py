@@ -41,7 +41,7 @@ from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling, settle
 from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
-from fairlead.integrate.point.controller import restart, smallest_step, weigh, weighted_norm
+from fairlead.integrate.point.controller import longest_first_step, restart, smallest_step, weigh, weighted_norm
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
 from fairlead.integrate.record.rows import shown_end, write_row
 
@@ -122,7 +122,7 @@ def arrive(m, by_equations):
             run.phase = SETTLE
         else:
             recorder.rows -= 1
-    elif moves_apart(m):
+    elif moves_apart(problem, point, linear):
         write_row(problem, recorder, point.t, as_shown(m, point.at_y, True), BEFORE)
         remember(problem, point, m.events.loads)
         guards.n_fired = 0
@@ -276,8 +276,8 @@ def find_next_time(problem, run, point):
 
 
 @compiled
-def settle_here(m):
-    """Settle at the point; then any time event of this instant; then the step to begin with."""
+def settle_here(m, share, order):
+    """Settle at the point; then any time event of this instant; then the step to begin with (`first_step`)."""
     problem, run, point, events = m.problem, m.run, m.point, m.events
     starting = run.steps == 0 and run.companion == 0 and run.crossed == 0
     status = settle(m, START_ITERATIONS if starting else SETTLE_ITERATIONS)
@@ -309,24 +309,16 @@ def settle_here(m):
         take_time_event(problem, run, point, events)
         begin_settling(problem, run, point, events)
         return GO_ON
-    finish_settling(m, starting)
+    finish_settling(m, starting, share, order)
     return GO_ON
 
 
 @compiled
-def finish_settling(m, starting):
+def finish_settling(m, starting, share, order):
     """Choose the step after a settlement, and write the right-hand row."""
     problem, run, point, matrices, recorder = m.problem, m.run, m.point, m.linear.matrices, m.recorder
     if run.adaptive == 1:
-        weigh(point, point.at_y)
-        keep_differential(problem, point.at_slope, point.at_u)
-        speed = weighted_norm(point, point.at_u)
-        curvature = curvature_beyond_rounding(point, matrices)
-        keep_algebraic(problem, point.at_curvature, point.at_u)
-        run.h_next = restart(run, speed, curvature, weighted_norm(point, point.at_u))
-        if starting and run.first_step > 0.0:
-            run.h_next = run.first_step
-        run.h_next = max(min(run.h_next, 0.1 * (run.stop - run.start)), 4.0 * smallest_step(run, point))
+        run.h_next = first_step(problem, run, point, matrices, starting, share, order)
         watch_growth(m)
     run.last_error = 0.0
     m.events.settling.least_look = 0.0
@@ -344,6 +336,22 @@ def finish_settling(m, starting):
         recorder.grid_next = 1
         copy(reals(point.at_y, point.n), reals(point.at_begun, point.n))
     run.phase = TRY
+
+
+@compiled
+def first_step(problem, run, point, matrices, starting, share, order):
+    """The first step after a settlement, or what the run says at its start; `share` and `order` as in loop.Method."""
+    weigh(point, point.at_y)
+    keep_differential(problem, point.at_slope, point.at_u)
+    speed = weighted_norm(point, point.at_u)
+    curvature = curvature_beyond_rounding(point, matrices)
+    keep_algebraic(problem, point.at_curvature, point.at_u)
+    h = restart(run, speed, curvature, weighted_norm(point, point.at_u))
+    if run.first_step > 0.0 and run.steps == 0:
+        h = run.first_step if starting else h
+    elif share > 0.0:
+        h = min(h, longest_first_step(run, speed, curvature, share, order))
+    return max(min(h, 0.1 * (run.stop - run.start)), 4.0 * smallest_step(run, point))
 
 
 @compiled

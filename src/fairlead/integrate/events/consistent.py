@@ -230,17 +230,17 @@ def solve_point(m, iterations):
         return status
     project(problem, point, linear)
     keep(point)
-    status = newton(m, iterations)
+    status = newton(problem, point, linear, iterations)
     if status in (NOT_CONSISTENT, SINGULAR):
         give_back(point)
-        status = damped_newton(m)
+        status = damped_newton(problem, point, linear)
     return status
 
 
 @compiled
-def newton(m, iterations):
+def newton(problem, point, linear, iterations):
     """Newton with full updates; DONE or why not."""
-    problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
+    matrices = linear.matrices
     weigh(point, point.at_y)
     previous = 1e300
     for iteration in range(iterations):
@@ -272,14 +272,14 @@ def newton(m, iterations):
 
 
 @compiled
-def damped_newton(m):
+def damped_newton(problem, point, linear):
     """Newton that takes the largest share s = 1, 1/2, 1/4, ... of an update x after which less is left to do.
 
     Less by the natural test, which knows no units:  |x'| <= (1 - s/4) |x|  with the update x' that the same matrix asks
     for at the new point; a share small enough always passes. Source: Deuflhard 2004, Newton Methods for Nonlinear
     Problems, section 3.3.
     """
-    problem, point, linear, matrices = m.problem, m.point, m.linear, m.linear.matrices
+    matrices = linear.matrices
     previous = 1e300
     for iteration in range(DAMPED_UPDATES):
         status = prepare_consistent(problem, point, linear)
@@ -297,7 +297,7 @@ def damped_newton(m):
         if not isfinite(size):
             return NOT_CONSISTENT
         if size > LAST_DIGITS:
-            if not take_share(m, size):
+            if not take_share(problem, point, linear, size):
                 return NOT_CONSISTENT
         else:
             update(point, 1.0)
@@ -309,9 +309,8 @@ def damped_newton(m):
 
 
 @compiled
-def take_share(m, size):
+def take_share(problem, point, linear, size):
     """Add the largest share of the update in x that passes the natural test; False where none does."""
-    problem, point, linear = m.problem, m.point, m.linear
     keep(point)
     share = 1.0
     while share >= LEAST_FRACTION:

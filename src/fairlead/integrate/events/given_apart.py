@@ -52,11 +52,11 @@ def slip_of_given(problem, point, matrices, t, at_y):
 
 
 @compiled
-def moves_apart(m):
+def moves_apart(problem, point, linear):
     """True if rigid rows contradict each other at the point."""
-    if m.problem.rigid_circles == 0:
+    if problem.rigid_circles == 0:
         return False
-    return slip_of_given(m.problem, m.point, m.linear.matrices, m.point.t, m.point.at_y) > LEAST_APART
+    return slip_of_given(problem, point, linear.matrices, point.t, point.at_y) > LEAST_APART
 
 
 @compiled

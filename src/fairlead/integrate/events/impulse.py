@@ -83,23 +83,23 @@ def resolve_impact(m):
         return status
     weigh(point, point.at_y)
     moved = find_change_of_speed(problem, point)
-    contradicted = problem.rigid_circles == 1 and stays_apart(m)
+    contradicted = problem.rigid_circles == 1 and stays_apart(problem, point, m.linear)
     if moved <= NO_IMPACT and not contradicted:
         return DONE
-    find_own_time(m)
-    status = solve_under_load(m)
-    parts = count_parts(m) if status == DONE else 0
+    find_own_time(problem, m.run, point, m.events.settling)
+    status = solve_under_load(problem, point, m.linear, m.events.settling)
+    parts = count_parts(problem, point, m.linear, m.events.settling) if status == DONE else 0
     if parts > 0:
-        status = follow_slopes(m, parts)
+        status = follow_slopes(problem, point, m.linear, m.events.settling, parts)
     if status != DONE:
         return status
     change_zones_for(m)
     if guards.n_fired > 0:
         return RELEASED
-    if contradicted and stays_apart(m):
+    if contradicted and stays_apart(problem, point, m.linear):
         if leave_behind(m):
             return RELEASED
-        stays_apart(m)  # once more, for the row in `worst`
+        stays_apart(problem, point, m.linear)  # once more, for the row in `worst`
         return APART
     supports = any_support_moves(problem, point)
     back = NO_REBOUND
@@ -111,19 +111,18 @@ def resolve_impact(m):
         throw_back(m)
     change_speeds(problem, point, matrices, back, supports)
     if problem.n_integrals > 0:
-        integrate_impulses(m)
+        integrate_impulses(problem, point, matrices, m.events.settling)
     turn_round(m)
     return RELEASED if guards.n_fired > 0 else factorise_at(problem, point, m.linear, point.at_y, point.at_ft)
 
 
 @compiled
-def stays_apart(m):
+def stays_apart(problem, point, linear):
     """True if rigid rows of a circle still slip after the change of speed in u."""
-    point = m.point
     y, dv, after = reals(point.at_y, point.n), reals(point.at_u, point.n), reals(point.at_y_probe, point.n)
     for k in range(point.n):
         after[k] = y[k] + dv[k]
-    return slip_of_given(m.problem, point, m.linear.matrices, point.t, point.at_y_probe) > LEAST_APART
+    return slip_of_given(problem, point, linear.matrices, point.t, point.at_y_probe) > LEAST_APART
 
 
 @compiled
@@ -154,18 +153,17 @@ def solve_to_rounding(problem, point, linear):
 
 
 @compiled
-def solve_under_load(m):
+def solve_under_load(problem, point, linear, settling):
     """Solve again with the slopes that laws have under the impulse, until it is that under which they are taken.
 
     A loss that follows a load has a corner at no load, where it is rounded off: there it has no slope, and under an
     impulse that of one side. Sets u = dV as well.
     """
-    problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
     b, taken, before = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_x, n)
     settled = False
     for _ in range(SOLVES):
-        load(m)
+        load(problem, settling, point)
         status = factorise_at(problem, point, linear, point.at_y_probe, point.at_x)
         if status != DONE:
             return status
@@ -186,18 +184,17 @@ def solve_under_load(m):
 
 
 @compiled
-def count_parts(m):
+def count_parts(problem, point, linear, settling):
     """In how many parts the impulse in b is to be taken; 0 if no law depends on the speeds that it changes.
 
     One implicit midpoint step whose slopes change by the share d has the error d^2/12, r of them d^2/(12 r^2). b and
     u stay as they are.
     """
-    problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
     b, whole = reals(point.at_b, n), reals(problem.at_impulse, n)
     copy(b, whole)
     most = change = 0.0
-    if not factorise_halfway(m, 0.5):
+    if not factorise_halfway(problem, point, linear, settling, 0.5):
         change = 0.0
     elif slip_to_stop(problem, point) and solve_to_rounding(problem, point, linear) == DONE:
         for k in range(n):
@@ -212,25 +209,23 @@ def count_parts(m):
 
 
 @compiled
-def factorise_halfway(m, share):
+def factorise_halfway(problem, point, linear, settling, share):
     """Factorise C under the impulses in b and with that share of their change of speed; False where it is singular."""
-    problem, point = m.problem, m.point
     n = problem.n
     b, loaded, struck = reals(point.at_b, n), reals(point.at_y_probe, n), indices(problem.at_struck, n)
-    load(m)
+    load(problem, settling, point)
     for k in range(problem.n):
         if struck[k] == 1:
             loaded[k] += share * b[k]
-    return factorise_at(problem, point, m.linear, point.at_y_probe, point.at_x) == DONE
+    return factorise_at(problem, point, linear, point.at_y_probe, point.at_x) == DONE
 
 
 @compiled
-def follow_slopes(m, parts):
+def follow_slopes(problem, point, linear, settling, parts):
     """Take the impulse in parts, each with the slopes halfway through its change of speed; b and u are the sums.
 
     Of r parts that are left, one takes 1/r of what would end the slip. The speeds of the point are those of before.
     """
-    problem, point, linear = m.problem, m.point, m.linear
     n = problem.n
     y, b = reals(point.at_y, n), reals(point.at_b, n)
     whole, before, struck = reals(problem.at_impulse, n), reals(problem.at_before, n), indices(problem.at_struck, n)
@@ -239,7 +234,7 @@ def follow_slopes(m, parts):
     status = DONE
     for left in range(parts, 0, -1):
         for share in (0.0, 0.5 / left):
-            if status == DONE and factorise_halfway(m, share):
+            if status == DONE and factorise_halfway(problem, point, linear, settling, share):
                 slip_to_stop(problem, point)
                 status = solve_to_rounding(problem, point, linear)
             else:

@@ -81,9 +81,8 @@ def any_support_moves(problem, point):
 
 
 @compiled
-def integrate_impulses(m):
+def integrate_impulses(problem, point, matrices, settling):
     """Add to integrals of forces what the impulses in b give them; u has the change of speed, `y_probe` e by row."""
-    problem, point, matrices = m.problem, m.point, m.linear.matrices
     n = problem.n
     y, b, dv, e = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_u, n), reals(point.at_y_probe, n)
     speed_of, differential = indices(problem.at_speed_of, n), indices(problem.at_differential, n)
@@ -93,7 +92,7 @@ def integrate_impulses(m):
             b[k] *= 1.0 + e[speed_of[k]]
     for k in range(n):
         halfway[k] = y[k] - 0.5 * dv[k]
-    load_forces(problem, m.events.settling, point)
+    load_forces(problem, settling, point)
     jacobian_at(problem.call_jacobian, (problem.context, point.t, point.at_y_probe, matrices.at_jacobian, point.at_x))
     problem.jacobians += 1
     starts, rows = indices(matrices.at_jacobian_starts, n + 1), indices(matrices.at_jacobian_rows, matrices.n_jacobian)

@@ -22,19 +22,18 @@ LEAST_IMPULSE = 1e-10
 
 
 @compiled
-def load(m):
+def load(problem, settling, point):
     """Set `y_probe` to the point under the impulses in b, as forces that act for no time; speeds are those before."""
-    n = m.problem.n
-    y, loaded = reals(m.point.at_y, n), reals(m.point.at_y_probe, n)
+    n = problem.n
+    y, loaded = reals(point.at_y, n), reals(point.at_y_probe, n)
     for k in range(n):
         loaded[k] = y[k]
-    load_forces(m.problem, m.events.settling, m.point)
+    load_forces(problem, settling, point)
 
 
 @compiled
-def find_own_time(m):
+def find_own_time(problem, run, point, settling):
     """Set T, with the speeds before and after u = dV; the span where nothing moves that has a place."""
-    problem, run, point = m.problem, m.run, m.point
     n = problem.n
     y, dv, weight = reals(point.at_y, n), reals(point.at_u, n), reals(point.at_weight, n)
     relative, position = reals(point.at_relative, n), indices(problem.at_position_of, n)
@@ -45,7 +44,7 @@ def find_own_time(m):
             fastest = max(abs(y[v]), abs(y[v] + dv[v]))
             if fastest * own * relative[x] > weight[x]:
                 own = weight[x] / (relative[x] * fastest)
-    m.events.settling.own_time = own
+    settling.own_time = own
 
 
 @compiled

@@ -38,7 +38,7 @@ def change_zones_for(m):
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
     least = max(LEAST_APPROACH * move_on(m), place_rounding(problem, point))
-    load(m)
+    load(problem, settling, point)
     evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_later)
     g, under, tolerance = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
     later, before = reals(settling.at_wrong, ng), reals(guards.at_g_later, ng)

@@ -37,7 +37,7 @@ def change_to_near_pattern(m):
             changed += 1
             if not may_hold(m.problem, z):
                 return False
-    if changed == 0 or determines(m, True):
+    if changed == 0 or determines(m.problem, m.point, m.linear, True):
         return False
     return change_few(m, changed, True) or change_few(m, changed, False)
 
@@ -46,8 +46,8 @@ def change_to_near_pattern(m):
 def change_few(m, changed, surely):
     """One of `changed` machines, an exchange or another that lets go, in this order; see `determines`."""
     if changed > 1:
-        return change_one(m, surely)
-    return exchange_one(m, surely) or open_one(m, surely)
+        return change_one(m.problem, m.point, m.linear, m.events.settling, surely)
+    return exchange_one(m.problem, m.point, m.linear, m.events.settling, surely) or open_one(m, surely)
 
 
 @compiled
@@ -61,28 +61,28 @@ def may_hold(problem, z):
 
 
 @compiled
-def determines(m, surely):
+def determines(problem, point, linear, surely):
     """True if the zones in force leave no unknown open; if not `surely`, also if only other pivots would tell.
 
     Of a full matrix it is always sure. A pattern that turns out to leave one open with other pivots too is left again.
     """
-    problem, matrices = m.problem, m.linear.matrices
+    matrices = linear.matrices
     mass_at(problem.call_mass, (problem.context, matrices.at_mass))
-    status = prepare_consistent(problem, m.point, m.linear)
+    status = prepare_consistent(problem, point, linear)
     return status == DONE if surely else status != SINGULAR
 
 
 @compiled
-def change_one(m, surely):
+def change_one(problem, point, linear, settling, surely):
     """Of several that changed only one does; False, and all of them, where no one determines all."""
-    nz, settling = m.problem.n_machines, m.events.settling
+    nz = problem.n_machines
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     wanted = indices(settling.at_zones_history + 8 * settling.passes * nz, nz)
     for kept in range(nz):
         if wanted[kept] != before[kept]:
             for z in range(nz):
                 zones[z] = wanted[z] if z == kept else before[z]
-            if determines(m, surely):
+            if determines(problem, point, linear, surely):
                 for z in range(nz):
                     before[z] = wanted[z]
                 return True
@@ -92,16 +92,16 @@ def change_one(m, surely):
 
 
 @compiled
-def exchange_one(m, surely):
+def exchange_one(problem, point, linear, settling, surely):
     """One that changed before goes back to the zone it began in, and the last one stays; False without one."""
-    nz, settling = m.problem.n_machines, m.events.settling
+    nz = problem.n_machines
     zones, before = indices(settling.at_zones, nz), indices(settling.at_zones_before, nz)
     first = indices(settling.at_zones_history, nz)
     for z in range(nz):
-        if zones[z] == before[z] and zones[z] != first[z] and may_hold(m.problem, z):
+        if zones[z] == before[z] and zones[z] != first[z] and may_hold(problem, z):
             left = zones[z]
             zones[z] = first[z]
-            if determines(m, surely):
+            if determines(problem, point, linear, surely):
                 for k in range(nz):
                     before[k] = zones[k]
                 before[z] = left
@@ -127,8 +127,8 @@ def open_one(m, surely):
         if zones[z] != before[z]:
             continue
         left = zones[z]
-        follow(m, i)
-        if zones[z] != left and determines(m, surely):
+        follow(problem, point, guards, i)
+        if zones[z] != left and determines(problem, point, m.linear, surely):
             opens, best, nearest = z, zones[z], g[i] / tolerance[i]
         zones[z] = left
     if opens < 0:
@@ -138,12 +138,11 @@ def open_one(m, surely):
     for k in range(nz):
         before[k] = zones[k]
     before[opens] = left
-    return determines(m, surely)
+    return determines(problem, point, m.linear, surely)
 
 
 @compiled
-def follow(m, i):
+def follow(problem, point, guards, i):
     """Follow guard i alone."""
-    guards = m.events.guards
     indices(guards.at_fired, guards.n_guards)[0] = i
-    switch_at(m.problem.call_switch, (m.problem.context, m.point.t, m.point.at_y, guards.at_fired, 1))
+    switch_at(problem.call_switch, (problem.context, point.t, point.at_y, guards.at_fired, 1))

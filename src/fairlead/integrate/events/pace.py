@@ -1,6 +1,8 @@
 """How long the next step is to be, and what becomes of one that is accepted: the same for all methods.
 
-Only `stepping` chooses the length after an accepted step anew (stepping/history.py), once `accept` has.
+What control wants, `h_next`, is set in three places: after an accepted step in `end_attempts`, of one that is to be
+taken again in `given_up.take_again`, and of the first after a settlement in `arrival.first_step`. The first and the
+last ask the method (loop.py).
 """
 
 from __future__ import annotations
@@ -85,17 +87,10 @@ def not_finite_here(problem, run, point, otherwise):
 
 @compiled
 def accept(m, h, crossed):
-    """Set the piece of the trial that is accepted: up to the crossing, or to the end."""
+    """Set the piece of the trial that is accepted: up to the crossing, or to the end; the loop ends its attempts."""
     run, point, recorder = m.run, m.point, m.recorder
     run.steps += 1
     run.partial_steps += run.narrowed
-    if run.adaptive == 1:
-        run.h_next = step_after_acceptance(run, h)
-        if h < run.h_wanted:
-            run.h_next = max(run.h_next, run.h_wanted)
-    run.last_error = max(run.error, 1e-4)
-    run.retried = 0
-    run.mended = 0
     run.crossed = 1 if crossed else 0
     if crossed and run.cut_at < 1.0:
         run.t_piece = point.t + run.cut_at * h
@@ -113,3 +108,21 @@ def accept(m, h, crossed):
             run.cut_at = 1.0
             integrate_quadratures(m, h)
     run.phase = RECORD
+
+
+@compiled
+def length_by_control(m):
+    """The length of the step after an accepted one by PI control; one that was clipped to a time event says nothing."""
+    run = m.run
+    wanted = step_after_acceptance(run, run.h)
+    return max(wanted, run.h_wanted) if run.h < run.h_wanted else wanted
+
+
+@compiled
+def end_attempts(run, length):
+    """After an accepted step the next is to have this length, unless it is fixed."""
+    if run.adaptive == 1:
+        run.h_next = length
+    run.last_error = max(run.error, 1e-4)
+    run.retried = 0
+    run.mended = 0

@@ -47,13 +47,13 @@ def find_consistent(m, iterations):
         return status
     if status == DONE and are_rigid(m.problem, m.point, m.linear):
         return status
-    return try_signs(m, iterations, status)
+    return try_signs(m.problem, m.point, m.linear, iterations, status)
 
 
 @compiled
-def try_signs(m, iterations, first):
+def try_signs(problem, point, linear, iterations, first):
     """Begin Newton from forces of other signs until rigid parts can have its answer; else the first one, as it was."""
-    problem, point, count = m.problem, m.point, m.problem.n_pressing
+    count = problem.n_pressing
     keep(point)
     few = count <= MOST_COMBINED
     for trial in range(1, 1 << count if few else count + 1):
@@ -61,11 +61,11 @@ def try_signs(m, iterations, first):
             give_back(point)
             mark(problem, trial)
         turn_marked(problem, point)
-        status = solved_here(m, iterations)
-        if status == INACCURATE or (status == DONE and are_rigid(problem, point, m.linear)):
+        status = solved_here(problem, point, linear, iterations)
+        if status == INACCURATE or (status == DONE and are_rigid(problem, point, linear)):
             return status
     give_back(point)
-    return solved_here(m, iterations) if first == DONE else first
+    return solved_here(problem, point, linear, iterations) if first == DONE else first
 
 
 @compiled
@@ -92,10 +92,10 @@ def turn_marked(problem, point):
 
 
 @compiled
-def solved_here(m, iterations):
+def solved_here(problem, point, linear, iterations):
     """Newton from here, with J of where it begins; its status."""
-    status = prepare_consistent(m.problem, m.point, m.linear)
-    return newton(m, iterations) if status == DONE else status
+    status = prepare_consistent(problem, point, linear)
+    return newton(problem, point, linear, iterations) if status == DONE else status
 
 
 @compiled

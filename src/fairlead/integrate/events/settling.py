@@ -52,7 +52,7 @@ def settle(m, iterations):
         if guards.n_fired > 0:
             if settling.passes >= run.max_passes:
                 return TOO_MANY_PASSES
-            if not there_is_room(problem, m.recorder) or wants_empty_log(m):
+            if not there_is_room(problem, m.recorder) or wants_empty_log(problem, run, settling, m.recorder):
                 return NO_ROOM
             if problem.falling == 1 and settling.passes == 0:
                 add_ties(problem, run, point, events)
@@ -83,13 +83,13 @@ def settle(m, iterations):
 
 
 @compiled
-def wants_empty_log(m):
+def wants_empty_log(problem, run, settling, recorder):
     """True if the log is to be emptied before the first change, so that what circles can be taken out of it.
 
     Else it would depend on how full the log was, and so on slices, how much of that is still there (`keep_last_event`).
     """
-    recorder, all_changes = m.recorder, m.run.max_passes * m.problem.n_machines
-    begins = m.run.on_chatter == HOLD and m.events.settling.passes == 0
+    all_changes = run.max_passes * problem.n_machines
+    begins = run.on_chatter == HOLD and settling.passes == 0
     return begins and recorder.events > 0 and recorder.events + all_changes > recorder.event_capacity
 
 
@@ -263,7 +263,7 @@ def log_change(m, z):
     write_event(m.point, settling, m.recorder, z, before[z], zones[z], guard)
     settling.switches += 1
     indices(settling.at_switches_by_machine, nz)[z] += 1
-    if run.narrowed == 1 and indices(settling.at_rim, nz)[z] == 1:
+    if run.narrowed == 1 and indices(settling.at_boundary, nz)[z] == 1:
         run.woken = 1
     watch_chatter(m, z)
 

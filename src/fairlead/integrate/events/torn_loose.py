@@ -44,9 +44,9 @@ def tear_first(m):
     problem, settling, guards = m.problem, m.events.settling, m.events.guards
     if problem.call_drift == 0 or problem.has_circles == 0 or event_is_due(m.run, m.point):
         return False
-    if settling.passes >= m.run.max_passes // 2 or not find_contradictions(m, find_slips(m)):
+    if settling.passes >= m.run.max_passes // 2 or not find_contradictions(problem, m.point, find_slips(m)):
         return False
-    grow_forces(m)
+    grow_forces(problem, m.run, m.point, guards)
     fire_first(problem, m.point, guards)
     return guards.n_fired > 0
 
@@ -78,14 +78,14 @@ def find_slips(m):
 
 
 @compiled
-def find_contradictions(m, least):
+def find_contradictions(problem, point, least):
     """True if more than one row of a circle slips; of other circles, and of rounding, slips are zero in v then.
 
     Of one row alone what it follows has jumped. The largest slip of each circle is in b.
     """
-    problem, n, found = m.problem, m.problem.n, False
-    circle, slip = indices(problem.at_circle, n), reals(m.point.at_v, n)
-    largest, count = reals(m.point.at_b, n), reals(m.point.at_x, n)
+    n, found = problem.n, False
+    circle, slip = indices(problem.at_circle, n), reals(point.at_v, n)
+    largest, count = reals(point.at_b, n), reals(point.at_x, n)
     for k in range(n):
         largest[k], count[k] = 0.0, 0.0
     for k in range(n):
@@ -105,12 +105,12 @@ def find_contradictions(m, least):
 
 
 @compiled
-def grow_forces(m):
+def grow_forces(problem, run, point, guards):
     """Guards at the point into `g`, and where forces of circles have grown with their slips into `g_probe`.
 
     By the largest force of their circle, or its weight, for the largest slip of it: circles have no body in common.
     """
-    problem, point, guards, n = m.problem, m.point, m.events.guards, m.problem.n
+    n = problem.n
     circle, slip, largest = indices(problem.at_circle, n), reals(point.at_v, n), reals(point.at_b, n)
     grows, y, probe = indices(problem.at_grows_with_slip, n), reals(point.at_y, n), reals(point.at_y_probe, n)
     weight, size = reals(point.at_weight, n), reals(point.at_u, n)
@@ -122,8 +122,8 @@ def grow_forces(m):
     for k in range(n):
         c = circle[k] - 1
         probe[k] = y[k] + (grows[k] * slip[k] / largest[c] * size[c] if slip[k] != 0.0 else 0.0)
-    evaluate_guards(problem, m.run, guards, point.t, point.at_y, guards.at_g)
-    evaluate_guards(problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
+    evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
+    evaluate_guards(problem, run, guards, point.t, point.at_y_probe, guards.at_g_probe)
 
 
 @compiled

@@ -22,6 +22,8 @@ speed. Differences from `rodas`, numbered:
 6. Positions are not brought back to what a row that holds knows of them: a step goes on from the history of those
    before. So it has no relations of positions. A body that leaves a stop which moves as given, which it is off by the
    error of the run, ends the run: with zones that do not settle, or by meeting that stop again and again.
+7. IDA chooses its steps. Only the first after a restart is given: by |y''| alone, as the method begins at order one,
+   and in the mean of choice 1. What the settlement chose (arrival.first_step) is not read.
 
 Source of the method: Hindmarsh et al., ACM TOMS 31:363, 2005, DOI 10.1145/1089014.1089020; the Python
 package is scikit-sundae.

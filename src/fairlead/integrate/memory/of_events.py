@@ -66,7 +66,7 @@ SETTLING = Struct(
         "patterns_met": "passes",  # a number for the zones after each pass
     },
     indices={
-        "rim": "n_machines",  # of a part: 1 for machines whose change sets more in motion
+        "boundary": "n_machines",  # of a part: 1 for machines whose change sets more in motion
         "zones_before": "n_machines", "zones_given": "n_machines",  # before the pass; at the start of the run
         "zones_history": "passes_zones",  # after each pass
         "streak": "n_machines", "chatters": "n_machines",  # toggles in a row within a dwell; how often too many

@@ -63,6 +63,8 @@ RULE = Struct(
         "mean_before": "n",  # algebraic unknowns in the middle of the last step, where steps end at every switch
         "move": "n",  # the last solution, for the line search (residual.py)
         "chord_end": "n",  # scratch: the end before it is moved to judge captures (jump_inside.py)
+        "chord_defect": "n",  # c of third_order.py: f with motions that are given on their chord, less f
+        "half_move": "n",  # scratch: d/2 of third_order.py while g is solved for
         "kick": "n",  # by row, of a law that jumps: what its mean is asked to be
         "kick_first": "n", "kick_second": "n",  # and what it adds in the two solves that move the end (third_order.py)
     },
@@ -75,8 +77,8 @@ RULE = Struct(
 EXCHANGE = Struct(
     copies=("n", "n_machines", "zones",),
     integers=(
-        "driven",  # a contact holds on a surface whose speed varies
-        "massless",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
+        "support_accelerates",  # a contact holds on a surface whose speed varies
+        "algebraic_speeds",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
         "newly_held",  # rows hold since the last solve that did not before: their slip is to be evaluated
         "unchecked",  # the residual was not looked at since the factors are those in force
         "n_hold_mass", "n_hold_slope", "n_hold_share",
@@ -97,7 +99,7 @@ EXCHANGE = Struct(
     indices={
         # the contacts in the zones in force
         "holds": "n",  # 1 for rows that hold now
-        "of_massless": "n",  # 1 for rows that have held a node without mass
+        "of_algebraic_speed": "n",  # 1 for rows that have held a node without mass
         "caught": "n",  # 1 for rows that hold now and did not at the start of the step
         # entries of M in rows that may hold: place, row, column; of J to what moves; of J to other forces, in a circle
         "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
@@ -115,7 +117,8 @@ EXCHANGE = Struct(
 )  # fmt: skip
 """`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (row_cache.py).
 
-`holds`, `caught`, `of_massless`, `driven` and `massless` say besides what holds now: all of the room reads them.
+`holds`, `caught`, `of_algebraic_speed`, `support_accelerates` and `algebraic_speeds` say besides what holds now: all of
+the room reads them.
 """
 
 CONTACTS = Struct(
@@ -149,7 +152,8 @@ CONTACTS = Struct(
         # scratch: zones while laws are asked in others; from remember_before_switch on those that a jump puts back
         "zones_probed": "n_machines",
         "first_guard": "n_machines",
-        "met": "n_machines",  # scratch, 0 between passes: fronts (active_set.MET), laws that jump (jump_inside.py)
+        "met": "n_machines",  # scratch, 0 between passes: what a front has come to (slip_fronts.MET)
+        "jumped": "n_machines",  # scratch, 0 between passes: 1 for machines whose law has jumped (jump_inside.py)
         "hold_row": "n_machines",  # the first row that a machine is known to hold; -1: none
         "released": "n_machines", "released_by": "n_machines",  # the last step a contact let go in, by which guard
         "switched": "n_machines",  # machines that left their zone in the step, with a place for it
@@ -160,4 +164,4 @@ CONTACTS = Struct(
         "only_kinks": "n_machines",  # 1 for machines that are but pieces of continuous tables
     },
 )  # fmt: skip
-"""`stepping`: who holds what and hands its load to whom (active_set.py), what a step may have missed."""
+"""`stepping`: who holds what and hands its load to whom (slip_fronts.py), what a step may have missed."""

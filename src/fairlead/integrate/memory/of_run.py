@@ -21,7 +21,7 @@ RUN = Struct(
         "first_sample",  # codes.NONE_DUE, SAMPLE_DUE, SETTLING_FOR_IT
         "narrow_at",  # the step at which to look whether a part of the problem would do
         "narrowed",  # this is the memory of a part
-        "woken",  # a machine at the rim of the part has changed: the whole is to be settled
+        "woken",  # a machine at the boundary of the part has changed: the whole is to be settled
         "dwell_given", "step_floor_given",  # a user gave them: they count as they are then (chatter.py)
         # counters, see counters.py
         "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",

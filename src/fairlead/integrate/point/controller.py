@@ -143,3 +143,15 @@ def restart(run, slope_size, curvature_size, force_size):
     if run.error > IDLE_ERROR and suggested < STRAIGHT * run.h_next:
         suggested = min(max(suggested, run.h_next / 3.0 if gone > GONE else 0.0), run.h_next)
     return root_of_power(suggested)
+
+
+@compiled
+def longest_first_step(run, slope_size, curvature_size, share, order):
+    """The step after a switch at which the leading error of a method, A (h/T)^order / share, is one weight.
+
+    A and T as in `restart`. What is straight, or begins at rest, has no such bound.
+    """
+    if slope_size * slope_size <= NO_AMPLITUDE * curvature_size or is_straight(run, curvature_size):
+        return inf
+    scale = slope_size / curvature_size
+    return root_of_power(scale * (share / (slope_size * scale)) ** (1.0 / order))

@@ -12,9 +12,9 @@ docs/stepping.md is the page on its error. memory/of_methods.py says what every 
 `contacts` means; the one met most is `rule.gap`, half the length of the step before. In the order of a step:
 
     trial.py            a step is tried, and accepted or repeated (repeated.py)
-    theta_step.py       it is solved: linearise.py has J, M and W, residual.py says what is left, guards_of_step.py what
-                        is violated, active_set.py which zones follow; row_cache.py saves factorisations; neighbours.py
-                        plans once who holds what
+    theta_step.py       it is solved: linearise.py has J, M and W, residual.py says what is left, active_set.py which
+                        guards are violated and which zones follow; slip_fronts.py guesses more, which saves passes,
+                        and row_cache.py saves factorisations; neighbours.py plans once who holds what
     jump_inside.py      a law that jumps in it is put right there; of a row that is not known the step ends at the jump
                         (jump_at_end.py)
     third_order.py      its end is moved by the error of its rule

@@ -15,13 +15,13 @@ from fairlead.integrate.record.rows import rows_inside
 
 
 @compiled
-def end_massless(problem, point, linear, exchange, h):
+def end_algebraic_speeds(problem, point, linear, exchange, h):
     """Give nodes without mass that are held the speed they have at the end of a step, for their mean over it."""
     factors = linear.factors
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
-    holds, of_massless, differential = (
-        indices(exchange.at_holds, problem.n), indices(exchange.at_of_massless, problem.n),
+    holds, of_algebraic_speed, differential = (
+        indices(exchange.at_holds, problem.n), indices(exchange.at_of_algebraic_speed, problem.n),
         indices(problem.at_differential, problem.n),
     )  # fmt: skip
     field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
@@ -32,7 +32,7 @@ def end_massless(problem, point, linear, exchange, h):
         b[k] = 0.0
     for e in range(exchange.n_hold_mass):
         k = row[e]
-        if holds[k] == 1 and of_massless[k] == 1 and minus_slip[k] != 0.0:
+        if holds[k] == 1 and of_algebraic_speed[k] == 1 and minus_slip[k] != 0.0:
             b[k] = minus_slip[k] * factors.mass_factor
             found = True
     if not found:
@@ -82,7 +82,7 @@ def hold_inside(m):
             any_caught = any_caught or caught[row[e]] == 1
     if not any_holds:
         return
-    if exchange.driven == 1 or exchange.massless == 1:
+    if exchange.support_accelerates == 1 or exchange.algebraic_speeds == 1:
         recorder.rows_slip = 1
         return
     if any_caught:

@@ -15,18 +15,9 @@ from __future__ import annotations
 from math import inf
 
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
-from fairlead.integrate.point.controller import (
-    NO_AMPLITUDE,
-    SAFETY,
-    SHRINK_LIMIT,
-    is_straight,
-    smallest_step,
-    weighted_norm,
-)
-from fairlead.integrate.point.curvature import curvature_beyond_rounding
-from fairlead.integrate.point.even_steps import COARSE, root_of_power, rounded
+from fairlead.integrate.point.controller import SAFETY, SHRINK_LIMIT
+from fairlead.integrate.point.even_steps import COARSE, rounded
 from fairlead.integrate.stepping.limit_violation import HELD_THROUGH
-from fairlead.integrate.stepping.located_step import CAREFUL
 from fairlead.integrate.stepping.row_cache import forget_jacobian, forget_rows
 
 BLOCK = 5
@@ -43,10 +34,7 @@ NO_ERROR = 1e-10
 
 @compiled
 def choose_next_step(run, rule, h, repeated):
-    """Into `h_next` the length of the step after an accepted one of length h, in place of that of `pace.accept`.
-
-    Right after a repeated step it does not grow.
-    """
+    """The length of the step after an accepted one of length h. Right after a repeated step it does not grow."""
     if rule.block_steps == BLOCK:
         rule.allowed_before, rule.allowed, rule.block_steps = rule.allowed, inf, 0
     rule.block_steps += 1
@@ -56,11 +44,10 @@ def choose_next_step(run, rule, h, repeated):
     allowed = min(now, min(rule.allowed, rule.allowed_before))
     last = max(h, run.h_wanted)  # a step clipped to a time event says nothing about the next
     if allowed < SAFETY * last:
-        run.h_next = max(allowed, SHRINK_LIMIT * last)
-    elif allowed > LONGER * last and not repeated:
-        run.h_next = min(allowed, MOST_GROWTH * last)
-    else:
-        run.h_next = last
+        return max(allowed, SHRINK_LIMIT * last)
+    if allowed > LONGER * last and not repeated:
+        return min(allowed, MOST_GROWTH * last)
+    return last
 
 
 @compiled
@@ -96,16 +83,10 @@ def count_rest(stepping):
 
 
 @compiled
-def begin_history(run, point, matrices, stepping):
-    """After a settlement: the slopes before are those of the consistent point, now and a little earlier.
-
-    The first step makes the error of a motion with the time scale T = |y'|/|y''| and the amplitude
-    A = T |y'| equal to what is allowed, one weight or one CAREFUL-th of it: A (h/T)^3 / 12.
-    """
-    rule = stepping.rule
-    allowed = 1.0 / CAREFUL if rule.locates == 1 else 1.0
-    n = point.n
-    slope, curvature, rate = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)
+def begin_history(run, point, stepping):
+    """After a settlement: the slopes before are those of the consistent point, now and a little earlier."""
+    rule, n = stepping.rule, point.n
+    slope, curvature = reals(point.at_slope, n), reals(point.at_curvature, n)
     before, earlier = reals(rule.at_slope_before, n), reals(rule.at_slope_earlier, n)
     differential = indices(point.at_differential, n)
     forget_jacobian(rule)
@@ -113,15 +94,6 @@ def begin_history(run, point, matrices, stepping):
     rule.failed = 0
     begin_rest(stepping.contacts)
     forget_steps(rule)
-    if run.adaptive == 1 and not (run.steps == 0 and run.first_step > 0.0):
-        for k in range(n):
-            rate[k] = slope[k] if differential[k] == 1 else 0.0
-        speed = weighted_norm(point, point.at_u)
-        curvature_size = curvature_beyond_rounding(point, matrices)
-        if speed * speed > NO_AMPLITUDE * curvature_size and not is_straight(run, curvature_size):
-            scale = speed / curvature_size
-            run.h_next = min(run.h_next, root_of_power(scale * (12.0 * allowed / (speed * scale)) ** (1.0 / 3.0)))
-        run.h_next = max(run.h_next, 4.0 * smallest_step(run, point))
     rule.gap = 0.0
     rule.gap_before = min(run.h_next, run.max_step)
     for k in range(n):

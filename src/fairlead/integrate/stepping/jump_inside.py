@@ -106,7 +106,7 @@ def ask_of_rows(m, h):
     problem, point, contacts, rule = m.problem, m.point, m.stepping.contacts, m.stepping.rule
     n = problem.n
     holder, at = indices(problem.at_holder, n), reals(contacts.at_jump_at, contacts.n_machines)
-    jumped, falls = indices(contacts.at_met, contacts.n_machines), indices(problem.at_falls, problem.n_machines)
+    jumped, falls = indices(contacts.at_jumped, contacts.n_machines), indices(problem.at_falls, problem.n_machines)
     field_at(problem.call_forces, (problem.context, point.t, point.at_y, point.at_x))
     field_at(problem.call_forces, (problem.context, point.t + h, point.at_y_end, point.at_f))
     problem.rhs += 2
@@ -132,13 +132,13 @@ def ask_of_rows(m, h):
 def note_kinds(guards, contacts, sure):
     """Of which kinds laws jump; if `sure`, also which guards need not be asked again in the zone in which they fired.
 
-    Later passes of a step are sure of jumps only: guesses follow from what is continuous (active_set.py), and are good
+    Later passes of a step are sure of jumps only: guesses follow from what is continuous (slip_fronts.py), and are good
     for what lets go by itself.
     """
     n = guards.n_guards
     suspects, machine = indices(contacts.at_suspects, n), indices(guards.at_guard_machine, n)
     known, old = indices(contacts.at_continuous, n), indices(contacts.at_zones_probed, contacts.n_machines)
-    at, jumped = reals(contacts.at_jump_at, contacts.n_machines), indices(contacts.at_met, contacts.n_machines)
+    at, jumped = reals(contacts.at_jump_at, contacts.n_machines), indices(contacts.at_jumped, contacts.n_machines)
     for k in range(contacts.n_suspects):
         z = machine[suspects[k]]
         if z >= 0 and at[z] >= 0.0 and (sure or jumped[z] == 1):

@@ -72,7 +72,7 @@ def evaluate_slopes(problem, point, linear, stepping, h):
 def find_holds(point, matrices, exchange):
     """Mark the rows of contacts that hold, and take J out of them but for shares: there the slip at the end is zero.
 
-    They are the rows of algebraic unknowns in which M has an entry now. `driven` tells of a surface with
+    They are the rows of algebraic unknowns in which M has an entry now. `support_accelerates` tells of a surface with
     a speed that varies, `caught` of rows that did not hold before.
     """
     caught = indices(exchange.at_caught, point.n)
@@ -83,14 +83,14 @@ def find_holds(point, matrices, exchange):
     values = reals(matrices.at_mass, matrices.n_mass)
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
     differential = indices(point.at_differential, point.n)
-    of_massless = indices(exchange.at_of_massless, point.n)
+    of_algebraic_speed = indices(exchange.at_of_algebraic_speed, point.n)
     for e in range(exchange.n_hold_mass):
         if holds[row[e]] == 1:
             holds[row[e]] = 2
         if values[entry[e]] != 0.0 and differential[column[e]] == 0:
-            of_massless[row[e]] = 1
-            exchange.massless = 1
-    exchange.driven = 0
+            of_algebraic_speed[row[e]] = 1
+            exchange.algebraic_speeds = 1
+    exchange.support_accelerates = 0
     for e in range(exchange.n_hold_mass):
         if values[entry[e]] != 0.0:
             if holds[row[e]] == 0:
@@ -98,7 +98,7 @@ def find_holds(point, matrices, exchange):
                 exchange.newly_held = 1
             holds[row[e]] = 1
             if ft[row[e]] != 0.0:
-                exchange.driven = 1
+                exchange.support_accelerates = 1
     for e in range(exchange.n_hold_mass):
         if holds[row[e]] == 2:
             holds[row[e]] = 0

@@ -53,10 +53,10 @@ and is nothing from the last on."""
 
 
 @compiled
-def repeat(m, length, why):
+def repeat(run, guards, stepping, length, why):
     """Have the step taken again from its start, in the zones it had there, `length` long."""
-    give_back_zones(m.events.guards, m.stepping)
-    return take_again(m.run, length, why)
+    give_back_zones(guards, stepping)
+    return take_again(run, length, why)
 
 
 @compiled
@@ -75,7 +75,7 @@ def reject_error(m, h):
         blame(run, point)
     else:
         run.rejected_nan += 1
-    repeat(m, step_after_rejection(run, h), TOO_LONG)
+    repeat(run, m.events.guards, m.stepping, step_after_rejection(run, h), TOO_LONG)
     if run.adaptive == 0:
         return not_finite_here(m.problem, run, point, STEP_FLOOR)
     note_rejection(run, m.stepping.rule)
@@ -89,11 +89,11 @@ def halve_unsolved(m, h, status):
     count_unsolved(run, status)
     if status == CYCLES and m.stepping.contacts.expecting == 1:
         rule.failed += 1  # the same step again, without guessing
-        return repeat(m, h, TOO_LONG)
+        return repeat(run, m.events.guards, m.stepping, h, TOO_LONG)
     rule.failed = rule.failed + 2 if run.adaptive == 1 else 2 * max(rule.failed, 1)  # halves to go, if fixed
     if status == CYCLES:
         rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
-    repeat(m, 0.5 * h, TOO_LONG)
+    repeat(run, m.events.guards, m.stepping, 0.5 * h, TOO_LONG)
     if run.h_next >= smallest_step(run, point):
         return GO_ON
     if status == CYCLES:
@@ -142,15 +142,15 @@ def settle_jump(m):
 
 
 @compiled
-def localise_jump(m, h):
+def localise_jump(point, guards, settling, stepping, h):
     """True if the step ends where a law jumps; it has the zones of its start then. Else `t_cut` is where it should."""
-    point, rule = m.point, m.stepping.rule
+    rule = stepping.rule
     often = rule.localising >= TRIES
-    if m.events.settling.passes > 0:
+    if settling.passes > 0:
         if often:
             rule.t_cut = point.t + 0.5 * h
     elif often or (rule.localising > 0 and abs(rule.t_cut - point.t - h) <= AT_PLACE * h):
-        give_back_zones(m.events.guards, m.stepping)
+        give_back_zones(guards, stepping)
         return True
     rule.localising += 1
     return False
@@ -170,19 +170,19 @@ def find_switch_passed(m, h):
 
 
 @compiled
-def find_latch_ahead(m):
+def find_latch_ahead(run, guards, stepping):
     """True if a relay or the like switches just ahead: the start is settled, and steps end at the next switch."""
-    near = 1.0 if m.run.retried >= TRIES else AT_ONCE  # what reads a mean may be due before the start, and never near
-    if m.run.adaptive == 0 or not latch_switched(m.stepping.contacts, near):
+    near = 1.0 if run.retried >= TRIES else AT_ONCE  # what reads a mean may be due before the start, and never near
+    if run.adaptive == 0 or not latch_switched(stepping.contacts, near):
         return False
-    m.run.rejected_switch += 1
-    give_back_zones(m.events.guards, m.stepping)
-    m.stepping.rule.locates_for = SETTLED_AHEAD
+    run.rejected_switch += 1
+    give_back_zones(guards, stepping)
+    stepping.rule.locates_for = SETTLED_AHEAD
     return True
 
 
 @compiled
-def end_at_switch(m, length, why):
+def end_at_switch(run, guards, stepping, length, why):
     """Repeat a step so that it ends at a switch, at `t_cut`: all cuts of steps with switches inside come here."""
-    m.run.rejected_switch += 1
-    return repeat(m, length, why)
+    run.rejected_switch += 1
+    return repeat(run, guards, stepping, length, why)

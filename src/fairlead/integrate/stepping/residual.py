@@ -115,16 +115,16 @@ def find_residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     add_mass_times(matrices, point.at_v, point.at_b)
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     caught, minus_slip = indices(exchange.at_caught, n), reals(point.at_minus_slip, n)
-    if exchange.newly_held == 1 or exchange.driven == 1:
+    if exchange.newly_held == 1 or exchange.support_accelerates == 1:
         field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
         for e in range(exchange.n_hold_mass):
-            if holds[row[e]] == 1 and (exchange.driven == 1 or caught[row[e]] == 1):
+            if holds[row[e]] == 1 and (exchange.support_accelerates == 1 or caught[row[e]] == 1):
                 b[row[e]] = minus_slip[row[e]] / h
     else:  # the row of a caught contact is linear, so a full move has left no slip
         for e in range(exchange.n_hold_mass):
             if holds[row[e]] == 1 and caught[row[e]] == 1:
                 b[row[e]] = 0.0
-    if exchange.massless == 1:
+    if exchange.algebraic_speeds == 1:
         find_slip_without_mass(problem, point, stepping, h)
     entry, row, column = (
         indices(exchange.at_hold_share, exchange.n_hold_share),
@@ -142,13 +142,13 @@ def find_slip_without_mass(problem, point, stepping, h):
     """Set -slip/(theta h) at the theta point in the rows of contacts that hold nodes without mass."""
     rule, exchange = stepping.rule, stepping.exchange
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
-    of_massless = indices(exchange.at_of_massless, problem.n)
+    of_algebraic_speed = indices(exchange.at_of_algebraic_speed, problem.n)
     holds, b = indices(exchange.at_holds, problem.n), reals(point.at_b, problem.n)
     minus_slip = reals(point.at_minus_slip, problem.n)
     field_at(problem.call_drift, (problem.context, point.t + rule.theta_now * h, point.at_u, point.at_minus_slip))
     for e in range(exchange.n_hold_mass):
         k = row[e]
-        if holds[k] == 1 and of_massless[k] == 1:
+        if holds[k] == 1 and of_algebraic_speed[k] == 1:
             b[k] = minus_slip[k] / (rule.theta_now * h)
 
 

@@ -117,8 +117,9 @@ def note_hold(matrices, exchange, z):
         if values[entries[e]] != 0.0:
             found = 1
             if differential[columns[e]] == 0:
-                indices(exchange.at_of_massless, matrices.n)[indices(exchange.at_own_row, exchange.n_machines)[z]] = 1
-                exchange.massless = 1
+                row = indices(exchange.at_own_row, exchange.n_machines)[z]
+                indices(exchange.at_of_algebraic_speed, matrices.n)[row] = 1
+                exchange.algebraic_speeds = 1
     return found
 
 
@@ -173,7 +174,9 @@ def linear_part(point, matrices, stepping, z):
 @compiled
 def rows_are_known(problem, exchange):
     """True if f is linear, and the residual of the rows just exchanged known without it."""
-    if problem.linear == 0 or (exchange.invalidated & CONSTANT) != 0 or exchange.driven == 1 or exchange.massless == 1:
+    if problem.linear == 0 or (exchange.invalidated & CONSTANT) != 0:
+        return False
+    if exchange.support_accelerates == 1 or exchange.algebraic_speeds == 1:
         return False
     changed = indices(exchange.at_exchanged_machines, problem.n_machines)
     zones = indices(problem.at_zones, problem.n_machines)
@@ -328,7 +331,7 @@ def invalidate_assumed(stepping):
 def watch_surfaces(problem, point, matrices, exchange):
     """Of contacts caught by their known rows: whether the surface of one varies its speed."""
     exchange.caught_by_row = 0
-    if exchange.driven == 1:
+    if exchange.support_accelerates == 1:
         return
     field_at(problem.call_drift, (problem.context, point.t, point.at_y_end, point.at_minus_slip))
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
@@ -340,4 +343,4 @@ def watch_surfaces(problem, point, matrices, exchange):
     for e in range(exchange.n_hold_mass):
         left = SPEED_ROUNDING * (1.0 + abs(values[entry[e]] * y_end[column[e]]))
         if holds[row[e]] == 1 and caught[row[e]] == 1 and abs(minus_slip[row[e]]) > left:
-            exchange.driven = 1
+            exchange.support_accelerates = 1

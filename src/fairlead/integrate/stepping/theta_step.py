@@ -30,7 +30,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     R searched       moves were taken back, or in vain     search_line                judge_residual
     R linearised     J and M are evaluated                 forget_jacobian            linearise_step
     R locates        zones never change in a step          engine.py, trial.py        find_violators
-    R frozen         they do not in this one               solve_in_zones             find_violators, expect_fronts
+    R frozen         they do not in this one               solve_in_zones             find_violators, predict_fronts
     E zones_differ   zones may not be those of J and M     whoever switches zones     linearise_step
     E n_exchanged    machines whose rows were exchanged    linearise_step             learn_constants, rows_are_known
     E rows_alone     that is all that has changed          linearise_step             solve_once
@@ -39,7 +39,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     E caught_by_row  a row of the cache began to hold      exchange_rows              approach_laws
     E assumed        what the step relies on of the cache  take_row, solve_exchanged  approach_laws, switch_zones
     S passes         switches of zones in this step        follow_guards              switch_zones
-    S one_by_one     how few violators switch              follow_guards              solve_once, guards_of_step.py
+    S one_by_one     how few violators switch              follow_guards              solve_once, active_set.py
 """
 
 from __future__ import annotations
@@ -49,8 +49,7 @@ from math import isfinite
 from fairlead.integrate.codes import AFRESH, CYCLES, DIVERGES, DONE, INACCURATE, JUMPS, MIDDLE, ONCE_MORE
 from fairlead.integrate.linear.systems import solve_motion
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.stepping.active_set import begin_set, expect_fronts, follow_guards, learn_from_neighbours
-from fairlead.integrate.stepping.guards_of_step import find_violators
+from fairlead.integrate.stepping.active_set import begin_set, find_violators, follow_guards
 from fairlead.integrate.stepping.jump_at_end import all_continuous, find_jumping_law, find_means, place_jump
 from fairlead.integrate.stepping.jump_inside import forget_jumps, put_jumps_right, remember_before_switch
 from fairlead.integrate.stepping.linearise import linearise_step
@@ -76,6 +75,7 @@ from fairlead.integrate.stepping.row_cache import (
     solve_exchanged,
     watch_surfaces,
 )
+from fairlead.integrate.stepping.slip_fronts import learn_from_neighbours, predict_fronts
 from fairlead.integrate.stepping.switch_inside import forget_switches, note_switches
 
 SLOW = 0.01
@@ -122,7 +122,7 @@ def begin_step(m, h):
     forget_switches(stepping.contacts)
     forget_jumps(stepping.rule)
     begin_set(m.run, m.events.settling, stepping)
-    expect_fronts(m, h)
+    predict_fronts(m, h)
     exchange.assumed, exchange.caught_by_row, stepping.rule.searched = 0, 0, 0
 
 

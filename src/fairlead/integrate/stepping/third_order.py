@@ -16,8 +16,8 @@ is not in the formula, and h^2 times the second derivative of such a motion is n
 
 In `move_by_error`: e/2 is what the first solve leaves in b, e/12 is `twelfth`, c is `chord_defect`, f0 and f1 are `f0`
 and `f1`; f(u) is not evaluated again, since it is M (y1 - y0)/h + `kick` once the step is solved (`kick`, `first` and
-`second` are of laws that jump, jump_inside.py). d/2 is what the last solve leaves in b. These arrays are scratch of
-point and hold other things elsewhere: `point.error_vector` is c here, and the error of the step in step_error.py.
+`second` are of laws that jump, jump_inside.py). d/2 is what the last solve leaves in b. b, u, v, x and f are scratch of
+point.
 
 f is linear enough for that inside a step, whose zones are frozen; q tells what depends on time or is curved. Contacts
 that hold have no slip in e and d. For y' = z y/h the step multiplies by (1 + z/2)/(1 - z/2) - (z/(1 - z/2))^3/12: never
@@ -67,16 +67,16 @@ def move_by_error(problem, point, linear, stepping, h):
     f0, f1, b, minus_rate_third = reals(point.at_x, n), reals(point.at_f, n), reals(point.at_b, n), reals(point.at_v, n)
     y, y_end, twelfth = reals(point.at_y, n), reals(point.at_y_end, n), reals(point.at_u, n)
     holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
-    moving, chord_defect = indices(problem.at_differential, n), reals(point.at_error_vector, n)
-    find_chord_defect(problem, point, h)
+    moving, chord_defect = indices(problem.at_differential, n), reals(stepping.rule.at_chord_defect, n)
+    find_chord_defect(problem, point, stepping.rule, h)
     find_forces_at_ends(problem, point, stepping.rule, h)
     for k in range(n):
         b[k] = f1[k] - f0[k] + 4.0 * chord_defect[k] - first[k] if holds[k] == 0 and quadrature[k] == 0 else 0.0
-    if exchange.driven == 1:
+    if exchange.support_accelerates == 1:
         follow_surfaces(problem, point, exchange, h)
     solve_motion(linear, point.at_b)
     if stepping.rule.locates == 1:
-        sharpen(problem, point, linear, exchange)
+        sharpen(problem, point, linear, stepping)
     for k in range(n):
         moves = moving[k] == 1 and quadrature[k] == 0
         twelfth[k] = b[k] / 6.0 if moves else 0.0
@@ -96,11 +96,11 @@ def move_by_error(problem, point, linear, stepping, h):
 
 
 @compiled
-def sharpen(problem, point, linear, exchange):
+def sharpen(problem, point, linear, stepping):
     """Take from e/2 in b half of what the filter of its solve has too much, to first order: W (g/2) = J e/2 + 4 c."""
     n = problem.n
-    b, half, chord_defect = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
-    holds, quadrature = indices(exchange.at_holds, n), indices(problem.at_quadrature, n)
+    b, half, chord_defect = reals(point.at_b, n), reals(point.at_v, n), reals(stepping.rule.at_chord_defect, n)
+    holds, quadrature = indices(stepping.exchange.at_holds, n), indices(problem.at_quadrature, n)
     moving, kept = indices(problem.at_differential, n), reals(point.at_u, n)
     for k in range(n):
         kept[k] = b[k]
@@ -119,11 +119,11 @@ def sharpen(problem, point, linear, exchange):
 def damp_end(problem, point, linear, stepping):
     """Add g to b, W g = -J b/2 and what jumps need besides: by this no end keeps what is stiff (jump_inside.py)."""
     n = problem.n
-    b, moved, half_moved = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
+    b, moved, half_move = reals(point.at_b, n), reals(point.at_v, n), reals(stepping.rule.at_half_move, n)
     holds, quadrature = indices(stepping.exchange.at_holds, n), indices(problem.at_quadrature, n)
     moving, second = indices(problem.at_differential, n), reals(stepping.rule.at_kick_second, n)
     for k in range(n):
-        half_moved[k] = b[k]
+        half_move[k] = b[k]
         moved[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
         b[k] = second[k]
     add_jacobian_times(linear.matrices, -0.5, point.at_v, point.at_b)
@@ -132,24 +132,24 @@ def damp_end(problem, point, linear, stepping):
             b[k] = 0.0
     solve_motion(linear, point.at_b)
     for k in range(n):
-        b[k] += half_moved[k]
+        b[k] += half_move[k]
 
 
 @compiled
-def find_chord_defect(problem, point, h):
-    """Into `error_vector`: f with given motions on their chord, less f with them where they are in the middle.
+def find_chord_defect(problem, point, rule, h):
+    """Into `chord_defect`: f with given motions on their chord, less f with them where they are in the middle.
 
     Only the laws that follow a given motion are evaluated, so that this counts as no evaluation of f.
     """
     y, y_end, u = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_u, problem.n)
-    chord_defect, moving = reals(point.at_error_vector, problem.n), indices(problem.at_differential, problem.n)
+    chord_defect, moving = reals(rule.at_chord_defect, problem.n), indices(problem.at_differential, problem.n)
     for k in range(problem.n):
         chord_defect[k] = 0.0
         u[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     if not differs(problem):
         return
     read_on_chord(problem, point, 0.5, h)
-    field_at(problem.call_ahead, (problem.context, point.t + 0.5 * h, point.at_u, point.at_error_vector))
+    field_at(problem.call_ahead, (problem.context, point.t + 0.5 * h, point.at_u, rule.at_chord_defect))
     read_at_instant(problem)
 
 
@@ -162,13 +162,13 @@ def follow_surfaces(problem, point, exchange, h):
     y, y_end, chord = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_y_probe, problem.n)
     minus_slip = reals(point.at_minus_slip, problem.n)
     holds, caught = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n)
-    of_massless = indices(exchange.at_of_massless, problem.n)
+    of_algebraic_speed = indices(exchange.at_of_algebraic_speed, problem.n)
     moving, b = indices(problem.at_differential, problem.n), reals(point.at_b, problem.n)
     for k in range(problem.n):
         chord[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     field_at(problem.call_drift, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_minus_slip))
     for k in range(problem.n):
-        if holds[k] == 1 and caught[k] == 0 and of_massless[k] == 0:
+        if holds[k] == 1 and caught[k] == 0 and of_algebraic_speed[k] == 0:
             b[k] = -8.0 * minus_slip[k] / h
 
 

@@ -4,7 +4,7 @@
              or, where every step ends at its switch, the end in the zones of the start
              not solved, or an error above one: a shorter step
     arrive   zone changes go to the log, at the end of the step
-    begin    after a settlement the slopes before are those of the settled point
+    settled  after a settlement the slopes before are those of the settled point
 
 A step is repeated, in the order in which these are looked for,
 
@@ -19,7 +19,7 @@ A step is repeated, in the order in which these are looked for,
 
 repeated.py does that; the last two on the right are as of `rodas` (events/given_up.py, one_step.py). In three cases it
 is no shorter step that follows: the loop finds other pivots; it takes the step with the whole problem where a machine
-changes that is shared with what rests (a rim); the start is settled, also where a law jumps there.
+changes that is shared with what rests (a boundary); the start is settled, also where a law jumps there.
 """
 
 from __future__ import annotations
@@ -39,11 +39,10 @@ from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
-from fairlead.integrate.stepping.dense_output import end_massless, hold_inside, show_inside
+from fairlead.integrate.stepping.dense_output import end_algebraic_speeds, hold_inside, show_inside
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
-from fairlead.integrate.stepping.instants import log_inside
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
-from fairlead.integrate.stepping.located_step import balance_end, holds_with_slip, remember_middle, stop_slip
+from fairlead.integrate.stepping.located_step import CAREFUL, balance_end, holds_with_slip, remember_middle, stop_slip
 from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     THETA_LEAST,
@@ -59,6 +58,7 @@ from fairlead.integrate.stepping.repeated import (
     settle_jump,
 )
 from fairlead.integrate.stepping.step_error import find_error, keep_larger
+from fairlead.integrate.stepping.switch_inside import log_inside
 from fairlead.integrate.stepping.theta_step import give_back_zones, take_theta_step
 from fairlead.integrate.stepping.third_order import refine_end
 
@@ -100,15 +100,15 @@ def finish_inside(m, h, status):
     if status == JUMPS or (status == DONE and find_due_jump(m, h)):
         if jump_at_start(run, point, rule):
             return settle_jump(m)
-        if not localise_jump(m, h):
-            return end_at_switch(m, min(rule.t_cut - point.t, h), TOO_FAR)
+        if not localise_jump(point, guards, settling, stepping, h):
+            return end_at_switch(run, guards, stepping, min(rule.t_cut - point.t, h), TOO_FAR)
         if status == JUMPS:
             status = solve_in_zones(m, h)
             if status == INACCURATE:
                 return halve_or_replan(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
-    if run.narrowed == 1 and settling.passes > 0 and rim_changed(settling, m.stepping.contacts):
+    if run.narrowed == 1 and settling.passes > 0 and boundary_changed(settling, m.stepping.contacts):
         give_back_zones(guards, stepping)
         return WIDEN
     if rule.theta_now == MIDDLE:
@@ -118,17 +118,17 @@ def finish_inside(m, h, status):
     judge_swings(problem, run, point, h)
     if not isfinite(run.error) or (run.adaptive == 1 and run.error > 1.0):
         return reject_error(m, h)
-    if find_latch_ahead(m):
+    if find_latch_ahead(run, guards, stepping):
         return settle_at_start(m)
     if find_switch_passed(m, h):
         blame(run, point)
-        return end_at_switch(m, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
-    if exchange.massless == 1:
-        end_massless(problem, point, linear, exchange, h)
+        return end_at_switch(run, guards, stepping, rounded(rule.t_cut - point.t, FINE), TOO_LONG)
+    if exchange.algebraic_speeds == 1:
+        end_algebraic_speeds(problem, point, linear, exchange, h)
     accept_step(m, h, False)
     show_inside(m)
     if rule.localising > 0:
-        settle_at_end(m)
+        settle_at_end(run, guards, stepping)
     return GO_ON
 
 
@@ -169,8 +169,8 @@ def end_located(m, h):
     if error <= 1.0:
         worst = point.worst
         error = keep_larger(point, error, worst, balance_end(m, h))
-    if exchange.massless == 1:
-        end_massless(problem, point, linear, exchange, h)
+    if exchange.algebraic_speeds == 1:
+        end_algebraic_speeds(problem, point, linear, exchange, h)
     return error
 
 
@@ -192,23 +192,20 @@ def step_over_kink(run, point, rule, h):
 
 @compiled
 def accept_step(m, h, crossed):
-    """Accept the step up to its crossing or its end; how long the next is to be."""
-    run, recorder, rule = m.run, m.recorder, m.stepping.rule
+    """Accept the step up to its crossing or its end."""
+    recorder, rule = m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > THETA_LEAST else 0.0
-    repeated = run.retried > 0
     accept(m, h, crossed)
-    if run.adaptive == 1:
-        choose_next_step(run, rule, h, repeated)
 
 
 @compiled
-def settle_at_end(m):
+def settle_at_end(run, guards, stepping):
     """Have the end of an accepted step settled, at which a law jumps."""
-    m.run.crossed = 1
-    m.events.guards.n_fired = 0
-    m.stepping.rule.localising = 0
+    run.crossed = 1
+    guards.n_fired = 0
+    stepping.rule.localising = 0
 
 
 @compiled
@@ -222,13 +219,13 @@ def solve_in_zones(m, h):
 
 
 @compiled
-def rim_changed(settling, contacts):
+def boundary_changed(settling, contacts):
     """True if the step changed a machine that keeps the rest of the problem at rest."""
     zones = indices(settling.at_zones, settling.n_machines)
     before = indices(contacts.at_zones_at_start, settling.n_machines)
-    rim, found = indices(settling.at_rim, settling.n_machines), False
+    boundary, found = indices(settling.at_boundary, settling.n_machines), False
     for z in range(settling.n_machines):
-        found = found or (rim[z] == 1 and zones[z] != before[z])
+        found = found or (boundary[z] == 1 and zones[z] != before[z])
     return found
 
 
@@ -255,9 +252,27 @@ def arrive_with_zones(m):
 def begin_again(m):
     """After a settlement nothing is known of the steps before; it may be the one after which steps end at switches."""
     rule = m.stepping.rule
+    rule.locates = 1 if will_locate(rule) else 0
     rule.locates_for = max(rule.locates_for - 1, 0)
-    rule.locates = 1 if rule.always_locates == 1 or rule.locates_for > 0 else 0
-    begin_history(m.run, m.point, m.linear.matrices, m.stepping)
+    begin_history(m.run, m.point, m.stepping)
 
 
-METHOD = Method(attempt_stepping, arrive_with_zones, begin_again)
+@compiled
+def will_locate(rule):
+    """True if steps end at every switch after the settlement that goes on."""
+    return rule.always_locates == 1 or rule.locates_for > 1
+
+
+@compiled
+def error_of_first(m):
+    """The leading error of the first step, A (h/T)^3 / 12, of which one weight or one CAREFUL-th of it is allowed."""
+    return 12.0 * (1.0 / CAREFUL if will_locate(m.stepping.rule) else 1.0), 3.0
+
+
+@compiled
+def length_after(m):
+    """How long the step after an accepted one is to be."""
+    return choose_next_step(m.run, m.stepping.rule, m.run.h, m.run.retried > 0)
+
+
+METHOD = Method(attempt_stepping, arrive_with_zones, begin_again, length_after, error_of_first)

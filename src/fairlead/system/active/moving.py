@@ -19,7 +19,7 @@ class Moving(NamedTuple):
     """By block: those that are monitored only: they say when what is left out no longer can be."""
     machines: Integers
     """Theirs."""
-    rim: Booleans
+    boundary: Booleans
     """By machine of the whole: its change may set in motion what is not kept."""
     carried: Entrained
 

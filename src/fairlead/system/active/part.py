@@ -24,7 +24,7 @@ class Part:
     unknowns: Integers
     machines: Integers
     guards: Integers
-    rim: Integers
+    boundary: Integers
     """By machine of the part: 1 if its change ends what is true of the part."""
     whole: Instance
     carried: Entrained

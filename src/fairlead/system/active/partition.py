@@ -160,7 +160,7 @@ class Partition:
     def moving(self) -> Moving:
         """What stays, and whose change ends it."""
         system, start = self.system, 0
-        rim, machines = np.zeros(len(system.zones), dtype=bool), [np.zeros(0, np.int64)]
+        boundary, machines = np.zeros(len(system.zones), dtype=bool), [np.zeros(0, np.int64)]
         laws, watched = [], []
         watches = np.zeros(len(self.laws), dtype=bool)
         watches[self.monitored] = True
@@ -170,10 +170,10 @@ class Partition:
             laws.append(self.laws[mine].copy())
             watched.append(watches[mine] & ~laws[-1])
             machines.append(block.machines[laws[-1] | watched[-1]].ravel())
-            rim[block.machines[watched[-1] | np.isin(block.sig_index, ratios).any(axis=1)].ravel()] = True
+            boundary[block.machines[watched[-1] | np.isin(block.sig_index, ratios).any(axis=1)].ravel()] = True
             start += block.count
         of_all = np.sort(np.concatenate(machines)).astype(np.int64)
-        return Moving(self.kept, laws, watched, of_all, rim, self.along)
+        return Moving(self.kept, laws, watched, of_all, boundary, self.along)
 
 
 def _may_rest(system: Instance, t: float, y: Floats) -> Booleans:

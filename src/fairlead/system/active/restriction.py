@@ -36,7 +36,7 @@ from fairlead.system.numbering.unknowns import Numbering
 def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part:
     """The System of what moves at (t, y [n])."""
     whole, n, carried = system.numbering, system.n, moving.carried
-    kept, machines, rim = moving.kept, moving.machines, moving.rim
+    kept, machines, boundary = moving.kept, moving.machines, moving.boundary
     unknowns = np.flatnonzero(kept)
     numbering = _numbering(system, moving)
     z_of, rests = _places(system, numbering, unknowns, moving)
@@ -56,7 +56,7 @@ def cut(system: Instance, t: float, y: Floats, moving: Moving) -> Part:
     _tell_of_the_whole(made, system, y, unknowns, machines, z_of, carried)
     hand_over(system, made)
     _say_what_rests(system, made, t, y, moving, rests)
-    return Part(made, unknowns, machines, guards, rim[machines].astype(np.int64), system, carried)
+    return Part(made, unknowns, machines, guards, boundary[machines].astype(np.int64), system, carried)
 
 
 def _weights(system: Instance, unknowns: Integers, guards: Integers) -> Weights:

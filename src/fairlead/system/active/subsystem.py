@@ -112,8 +112,8 @@ class Subsystem:
         of_blocks = [block.machines[chosen].ravel() for block, chosen in zip(system.blocks, laws, strict=True)]
         machines = np.sort(np.concatenate([*of_blocks, np.zeros(0, np.int64)]).astype(np.int64))
         nothing = [np.zeros(block.count, dtype=bool) for block in system.blocks]
-        rim = leaning_on(rest, left_out, len(system.zones))
-        return Moving(kept, laws, nothing, machines, rim, nothing_entrained(system))
+        boundary = leaning_on(rest, left_out, len(system.zones))
+        return Moving(kept, laws, nothing, machines, boundary, nothing_entrained(system))
 
     def part(self, t: float, y: Floats, moving: Moving) -> Part:
         """The System of what moves, with the numbers of the rest at (t, y)."""
