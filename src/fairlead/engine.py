@@ -30,8 +30,10 @@ from fairlead.system.numbering.loops import loop_remarks
 if TYPE_CHECKING:
     from fairlead.system.compiled.system import System
 
+Engine = Literal["rodas", "stepping", "ida"]
 
-def engine_of(settings: RunSettings, system: System) -> tuple[Literal["rodas", "stepping", "ida"], str]:
+
+def engine_of(settings: RunSettings, system: System) -> tuple[Engine, str]:
     """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
@@ -63,11 +65,14 @@ def refused(settings: RunSettings, system: System) -> Fault | None:
 
 
 def engine_settings(netlist: Netlist, settings: RunSettings, system: System, patterns: list[str], *,
-                    between: bool = True) -> Run:  # fmt: skip
-    """The settings of a run as the engine takes them; `between`: with what happens between the rows of a grid."""
+                    between: bool = True, chosen: Engine | None = None) -> Run:  # fmt: skip
+    """The settings of a run as the engine takes them; `between`: with what happens between the rows of a grid.
+
+    `chosen` is what `engine_of` says, if that is known.
+    """
     method = "rodas5p" if settings.method == "auto" else settings.method
     types = [instance.type for instance in system.flat.instances]
-    engine = engine_of(settings, system)[0]
+    engine = chosen or engine_of(settings, system)[0]
     located = {"most_located": most_located(system, settings)} if engine == "stepping" else {}
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,

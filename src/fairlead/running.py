@@ -86,13 +86,15 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
     limits = read_limits(without_gone(system.flat.assembly, netlist.limits), recording.recorded)
     creeping = [signal.name for signal in recording.recorded if signal.role == CREEP]
     compiled = time.perf_counter() - begun
-    header = {**_header(netlist, settings, system, told=told), "limits": limits.plain()}
+    engine = engine_of(settings, system)
+    header = {**_header(netlist, settings, system, engine, told=told), "limits": limits.plain()}
     shown = [recording.chosen[k] for k in columns]
     with Interruption() as interruption, _sink(path, _signals(shown), header, force=force) as sink:
         least = least_jumps(system, shown, settings.accuracy)
         event_rows = EventRows(least) if netlist.record.every is not None else None
         strains = Strains.of(system, recording.recorded)
-        asked = engine_settings(netlist, settings, system, patterns, between=peaks or bool(strains.names))
+        asked = engine_settings(netlist, settings, system, patterns, between=peaks or bool(strains.names),
+                                chosen=engine[0])  # fmt: skip
         together = ReleasedTogether(system) if asked.engine != "stepping" else None
         watch = Watch(system, sink, recording, Ledger(), WorstCreep(creeping), limits,
                       strains, UsedUp.of(system, recording.recorded),
@@ -204,13 +206,13 @@ def not_allowed(system: System) -> Fault | None:
     return Fault(None, f"{few(named)} {'is an FMU' if len(named) == 1 else 'are FMUs'} and not run.", NOT_ALLOWED)
 
 
-def _header(netlist: Netlist, settings: RunSettings, system: System, *, told: bool) -> dict[str, Any]:
-    engine, reason = engine_of(settings, system)
+def _header(netlist: Netlist, settings: RunSettings, system: System, chosen: tuple[str, str], *,
+            told: bool) -> dict[str, Any]:  # fmt: skip
     odd = [*remarks(system.flat, settings), *engine_remarks(settings, system)] if told else []
     return {
         "name": netlist.name, "netlist": str(netlist.path), "digest": netlist.digest,
         "description": netlist.description, "settings": settings.model_dump(),
-        "engine": engine, "engine_reason": reason,
+        "engine": chosen[0], "engine_reason": chosen[1],
         "effects": {name: value.plain() for name, value in netlist.effects.items()},
         "effects_in_force": system.flat.assembly.effects,
         "build": str(processor()), "versions": versions(),
