@@ -130,3 +130,31 @@ def test_where_machines_are_few_a_switch_is_logged_at_its_instant(accuracy, scen
     model = scene(BLOCK.replace("FORCE", RAMP).replace("SPEED", "0"), **{"run.accuracy": accuracy})
     (let_go,) = model.run(out=tmp_path / "run", engine="stepping").events
     assert let_go.t == pytest.approx(DUE, abs=1e-9)
+
+
+LIGHT = """
+    components:
+      heavy: {type: Mass, mass: 10 kg, position: 0 m, velocity: 0 m/s}
+      light: {type: Mass, mass: 10 g, position: 0 m, velocity: 0 m/s}
+      spring: {type: SpringDamper, stiffness: 1 kN/m, damping: 1 N*s/m}
+      push: {type: ForceSource, force: {sine: {amplitude: 4 N, frequency: 2 Hz}}}
+    connections: [[heavy.flange, spring.a], [spring.b, light.flange, push.flange]]
+    run: {stop: 1 s, accuracy: 1e-6}
+    """
+
+
+@pytest.mark.parametrize("accuracy", [1e-5, 1e-6])
+def test_a_light_body_lags_behind_a_slow_load_by_no_more_than_two_weights(accuracy, scene, tmp_path):
+    result = scene(LIGHT, **{"run.accuracy": repr(accuracy)}).run(out=tmp_path / "o", engine="stepping")
+    rate, inertia = 4 * np.pi, np.diag([10, 0.01])
+    # In steady motion, x = Im(amplitude e^(i rate t)); the heavy body drifts besides, and both swing as they start.
+    bond = (1e3 + 1j * rate) * np.array([[1, -1], [-1, 1]])
+    amplitude = np.linalg.solve(bond - rate**2 * inertia, [0, 4])[1]
+    steady = result.t > 0.4
+    t, v = result.t[steady], result["light.v"][steady]
+    drift = 4 / rate / 10.01
+    speed = np.imag(1j * rate * amplitude * np.exp(1j * rate * t)) + drift
+    assert np.abs(v - speed).max() < 2 * accuracy * (0.1 + np.abs(speed).max())
+    energy = result.run["energy"]
+    missing = abs(energy["stored_change"] + energy["dissipated"] - energy["supplied"])
+    assert missing < accuracy  # ten accuracies of 0.1 J
