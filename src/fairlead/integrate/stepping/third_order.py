@@ -34,8 +34,8 @@ what the filter has added away (`sharpen`):
     W (g/2) = J e/2 + 4 c            e <- e - g/2
 
 The factor is then the same (1 + z/2)/(1 - z/2) - w^3/12 + w^4/48: its error is half of the one above, and what is stiff
-is gone with the step. All of it would leave no error of that order, and of what is stiff a third. The half that is left,
-g/2 in e, is in `minus_slip` until the error of the step is known (`located_step.add_lag`), as g/4 with e/2 in b.
+is gone with the step. All of it would leave no error of that order, and of what is stiff a third. The half of g that
+is left in e is in `minus_slip` until the error of the step is known (`located_step.add_lag`), as g/4 with e/2 in b.
 
 (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of the step
 in place of differences over several steps, so that it survives a switch: of our own.)
