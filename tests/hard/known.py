@@ -12,13 +12,11 @@ from collections.abc import Iterable, Iterator
 from tests.hard.attempt import Attempt
 from tests.hard.registry import Row
 
-LIGHT = "stepping: 1.2e-5 J are missing of a body of 10 g that swings by itself on a spring; 1e-5 J are allowed"
 BRISTLES = "stepping: what carries a bristle to and fro is metered too high between turns; less so at a finer accuracy"
 LEDGER = "the energy of contacts that creep or bend is missing by more than ten accuracies over long steps"
 SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 CREEPS = "a row inside a step shows a contact that creeps at its limit 1.03e-5 above it at 1e-5; 1e-5 is allowed"
-TOUCHED = "stepping: a creep whose load comes to its limit and no further is shown 7e-4 above it in steps of 10 us"
 ASIDE = "ida: a body that is put back to what moves as given is not in its history; it ends and names rodas"
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
@@ -30,8 +28,6 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
     ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
     ("block on a shaken table, carried", "stepping", "lugre", BRISTLES),
-    ("random networks, 20", "stepping", "binding", TOUCHED),
-    ("random networks, 200", "stepping", "*", LIGHT),
     ("random networks, 200", "rodas", "binding", CREEPS),
     ("random routes, 10", "stepping", "hold", ROUTE),
     ("body that a shaking plate throws, 8 Hz", "ida", "none", ASIDE),
@@ -46,7 +42,11 @@ LEFT: tuple[tuple[str, str, str, str], ...] = (
 """Rows that the tests leave to `make hard`, as in KNOWN; `left_out` adds those that take long."""
 
 
-MENDED: tuple[tuple[str, str, str], ...] = (("random networks, 200", "rodas", "hold"),)
+MENDED: tuple[tuple[str, str, str], ...] = (
+    ("random networks, 20", "stepping", "binding"),
+    ("random networks, 200", "rodas", "hold"),
+    ("random networks, 200", "stepping", "[hl]*"),
+)
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made
 anew."""
 

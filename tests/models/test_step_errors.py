@@ -130,3 +130,89 @@ def test_where_machines_are_few_a_switch_is_logged_at_its_instant(accuracy, scen
     model = scene(BLOCK.replace("FORCE", RAMP).replace("SPEED", "0"), **{"run.accuracy": accuracy})
     (let_go,) = model.run(out=tmp_path / "run", engine="stepping").events
     assert let_go.t == pytest.approx(DUE, abs=1e-9)
+
+
+LIGHT = """
+    components:
+      heavy: {type: Mass, mass: 10 kg, position: 0 m, velocity: 0 m/s}
+      light: {type: Mass, mass: 10 g, position: 0 m, velocity: 0 m/s}
+      spring: {type: SpringDamper, stiffness: 1 kN/m, damping: 1 N*s/m}
+      push: {type: ForceSource, force: {sine: {amplitude: 4 N, frequency: 2 Hz}}}
+    connections: [[heavy.flange, spring.a], [spring.b, light.flange, push.flange]]
+    run: {stop: 1 s, accuracy: 1e-6}
+    """
+
+
+@pytest.mark.parametrize("accuracy", [1e-5, 1e-6])
+def test_a_light_body_lags_behind_a_slow_load_by_no_more_than_two_weights(accuracy, scene, tmp_path):
+    result = scene(LIGHT, **{"run.accuracy": repr(accuracy)}).run(out=tmp_path / "o", engine="stepping")
+    rate, inertia = 4 * np.pi, np.diag([10, 0.01])
+    # In steady motion, x = Im(amplitude e^(i rate t)); the heavy body drifts besides, and both swing as they start.
+    bond = (1e3 + 1j * rate) * np.array([[1, -1], [-1, 1]])
+    amplitude = np.linalg.solve(bond - rate**2 * inertia, [0, 4])[1]
+    steady = result.t > 0.4
+    t, v = result.t[steady], result["light.v"][steady]
+    drift = 4 / rate / 10.01
+    speed = np.imag(1j * rate * amplitude * np.exp(1j * rate * t)) + drift
+    assert np.abs(v - speed).max() < 2 * accuracy * (0.1 + np.abs(speed).max())
+    energy = result.run["energy"]
+    missing = abs(energy["stored_change"] + energy["dissipated"] - energy["supplied"])
+    assert missing < accuracy  # ten accuracies of 0.1 J
+
+
+TOUCHED = """
+    components:
+      one: {type: Mass, mass: MASS kg, position: 0 m, velocity: 0 m/s}
+      two: {type: Mass, mass: MASS kg, position: 0 m, velocity: 0 m/s}
+      pad: {type: Contact, normal_force: LIMIT N, curve: 1}
+      push: {type: ForceSource, force: {sine: {amplitude: PUSH N, frequency: 1 Hz}}}
+    connections: [[one.flange, pad.a], [pad.b, two.flange, push.flange]]
+    friction: {method: binding, creep: 1e-5 m/s}
+    run: {stop: 1 s, accuracy: 1e-5}
+    """
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-4, 1e-5, 1e-6])
+@pytest.mark.parametrize(("mass", "limit"), [(1, 1), (0.1, 1), (1, 30)])
+def test_a_creep_whose_load_comes_to_its_limit_and_no_further_is_not_shown_above_it(
+    mass, limit, accuracy, scene, tmp_path
+):
+    # Each body takes half of the push; so the pad carries its limit at a quarter of the period, and never more.
+    text = TOUCHED.replace("MASS", str(mass)).replace("LIMIT", str(limit)).replace("PUSH", str(2 * limit))
+    result = scene(text, **{"run.accuracy": repr(accuracy)}).run(out=tmp_path / "o", engine="stepping", max_steps=50000)
+    friction, load = result["pad.friction"], limit * np.sin(2 * np.pi * result.t)
+    assert np.abs(friction).max() <= limit * (1 + 1e-5)
+    assert np.abs(friction).max() > 0.99 * limit
+    before = result.t < 0.24
+    assert friction[before] == pytest.approx(load[before], abs=0.05 * limit)
+
+
+CHAIN = """
+    components:
+      left: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
+      middle: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
+      right: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
+      first: {type: Contact, normal_force: LIMIT N, curve: 1}
+      second: {type: Contact, normal_force: LIMIT N, curve: 1}
+      push: {type: ForceSource, force: {sine: {amplitude: PUSH N, frequency: 1 Hz}}}
+      pull: {type: ForceSource, force: {sine: {amplitude: PULL N, frequency: 1 Hz}}}
+    connections:
+      - [left.flange, first.a]
+      - [first.b, middle.flange, second.a, push.flange]
+      - [second.b, right.flange, pull.flange]
+    friction: {method: binding, creep: 1e-5 m/s}
+    run: {stop: 1 s, accuracy: 1e-5}
+    """
+
+
+@pytest.mark.parametrize("engine", ["stepping", "rodas"])
+@pytest.mark.parametrize("limit", [1, 20])
+def test_a_contact_that_begins_to_creep_beside_one_that_does_is_not_shown_above_its_limit(
+    limit, engine, scene, tmp_path
+):
+    # The pull lets the right body slide off; as it turns, the slip comes to zero while the other pad creeps.
+    text = CHAIN.replace("LIMIT", str(limit)).replace("PUSH", str(2 * limit)).replace("PULL", str(5 * limit))
+    result = scene(text).run(out=tmp_path / "o", engine=engine, max_steps=50000)
+    at_events = result.side != 0
+    for pad in ("first", "second"):
+        assert np.abs(result[f"{pad}.friction"][at_events]).max() <= limit * (1 + 1e-6)

@@ -6,7 +6,8 @@ are judged on the dense output as `rodas` judges them (crossing.py), and what fi
 
     forces     means over the step, so those of its middle; at its end the line through this middle and the one
                before says what they are, and between its ends a straight line
-    error      the third difference of all differential unknowns, speeds among them; of a force that holds the second
+    error      the third difference of all differential unknowns, speeds among them, and what they lag behind a slow
+               load; of a force that holds the second
     energy     from the states at the nodes of Gauss (quadratures.py)
 """
 
@@ -65,7 +66,21 @@ def stop_slip(m):
 def error_of_located(m, h):
     """Size of the error of a step in weights, from the differences in `error_vector` and the slopes of forces."""
     add_error_of_forces(m, h)
+    add_lag(m.point)
     return CAREFUL * weighted_norm(m.point, m.point.at_error_vector)
+
+
+@compiled
+def add_lag(point):
+    """Into `error_vector`: what follows a slow load lags by, so that one weight of it is allowed.
+
+    Where e is too large by c, the step misses -J c h/12, which no difference of its ends shows. A motion that is
+    driven through something stiff forgets h J of what it is off in each step. So all steps together leave -c/12, and
+    no more: it needs no CAREFUL. `sharpen` has left c/2 in `minus_slip`. Q
+    """
+    error, left = reals(point.at_error_vector, point.n), reals(point.at_minus_slip, point.n)
+    for k in range(point.n):
+        error[k] = max(error[k], LITTLE * abs(left[k]) / 6.0)
 
 
 @compiled

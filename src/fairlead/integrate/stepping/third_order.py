@@ -34,7 +34,8 @@ what the filter has added away (`sharpen`):
     W (g/2) = J e/2 + 4 c            e <- e - g/2
 
 The factor is then the same (1 + z/2)/(1 - z/2) - w^3/12 + w^4/48: its error is half of the one above, and what is stiff
-is gone with the step. All of it would leave no error of that order, and of what is stiff a third.
+is gone with the step. All of it would leave no error of that order, and of what is stiff a third. The half of g that
+is left in e is in `minus_slip` until the error of the step is known (`located_step.add_lag`), as g/4 with e/2 in b.
 
 (Deferred correction: Fox, Proc. R. Soc. A 190:31, 1947; Pereyra, Numer. Math. 8:376, 1966. With the matrix of the step
 in place of differences over several steps, so that it survives a switch: of our own.)
@@ -102,6 +103,7 @@ def sharpen(problem, point, linear, stepping):
     b, half, chord_defect = reals(point.at_b, n), reals(point.at_v, n), reals(stepping.rule.at_chord_defect, n)
     holds, quadrature = indices(stepping.exchange.at_holds, n), indices(problem.at_quadrature, n)
     moving, kept = indices(problem.at_differential, n), reals(point.at_u, n)
+    left = reals(point.at_minus_slip, n)
     for k in range(n):
         kept[k] = b[k]
         half[k] = b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
@@ -112,6 +114,7 @@ def sharpen(problem, point, linear, stepping):
             b[k] = 0.0
     solve_motion(linear, point.at_b)
     for k in range(n):
+        left[k] = 0.5 * b[k] if moving[k] == 1 and quadrature[k] == 0 else 0.0
         b[k] = kept[k] - 0.5 * b[k]
 
 
