@@ -1,4 +1,4 @@
-"""How a wheel of fairlead is built: setuptools, and the engine compiled to bitcode for any processor of this kind.
+"""How a wheel of fairlead is built: setuptools, and engine and kernels compiled for any processor of this kind.
 
 pip asks this backend (see pyproject.toml). Only a wheel needs numba, of the oldest version that is supported, because
 LLVM reads the bitcode of older versions and of no newer ones. An editable install compiles nothing and holds no
@@ -47,8 +47,11 @@ class BuildPy(build_py):
             return
         copied = pathlib.Path(self.build_lib).resolve()
         path = os.pathsep.join(filter(None, (str(copied), os.environ.get("PYTHONPATH"))))
-        command = [sys.executable, "-m", "fairlead.integrate.bitcode", str(copied / "fairlead" / "integrate")]
-        subprocess.run(command, check=True, cwd=copied, env={**os.environ, "PYTHONPATH": path})
+        there, folder = {**os.environ, "PYTHONPATH": path}, copied / "fairlead"
+        kernels = pathlib.Path(__file__).with_name("bundled_kernels.py")
+        for words in (["-m", "fairlead.integrate.bitcode", folder / "integrate"],
+                      [kernels, folder / "kernels" / "bundled.kernels"]):  # fmt: skip
+            subprocess.run([sys.executable, *words], check=True, cwd=copied, env=there)
 
 
 class BdistWheel(bdist_wheel):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from dataclasses import dataclass
@@ -66,7 +67,7 @@ class LaidLine(OfLine):
         """Outside diameter [m]."""
         return float(self.values.diameter)
 
-    @property
+    @functools.cached_property
     def weight(self) -> float:
         """Weight per length, if the scene has any [N/m]."""
         return float(self.values.weight) if self.values.gravity == "on" else 0.0
@@ -86,7 +87,7 @@ class LaidLine(OfLine):
         """True when devices rub on it."""
         return bool(self.values.device_friction == "on")
 
-    @property
+    @functools.cached_property
     def lightened(self) -> bool:
         """True when it presses less on a bend for its speed."""
         return bool(self.values.centrifugal == "on")

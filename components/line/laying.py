@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from fairlead.components.friction.contact import Contact
 from fairlead.components.mechanics.ground import Ground
 
-from fairlead.component.assembly import HandedOn, Join, PortRef
+from fairlead.component.assembly import HandedOn, Join, PortRef, of_classes
 from fairlead.component.declare import Input
 from fairlead.component.values import Values
 
@@ -24,7 +25,7 @@ class Laying:
 
     def child(self, name: str, kind: type, **given: Any) -> str:
         """Add a child of a type; returns its name."""
-        self.assembly.add(f"{self.line.path}.{name}", self.made(kind, **given), self.line.where)
+        self.assembly.add(self.below + name, self.made(kind, **given), self.line.where)
         return name
 
     def contact(
@@ -34,13 +35,21 @@ class Laying:
 
         `more` are parameters that it takes if its treatment has them.
         """
-        scene = self.assembly.scene
-        declared = scene.member(Contact, {}).declaration.parameters
-        known = {key: value for key, value in more.items() if key in declared}
+        known = {key: value for key, value in more.items() if key in self.contact_takes}
         self.child(name, Contact, curve=curve, **known)
         self.join_to(f"{name}.a", a)
         self.join(f"{body}.{port}", f"{name}.b")
         self.join(f"{load}.force", f"{name}.normal")
+
+    @functools.cached_property
+    def contact_takes(self) -> Mapping[str, Any]:
+        """Parameters of a contact as the scene's friction block treats it."""
+        return self.assembly.scene.member(Contact, {}).declaration.parameters
+
+    @functools.cached_property
+    def below(self) -> str:
+        """What the paths of its children begin with."""
+        return f"{self.line.path}."
 
     def made(self, kind: type, **given: Any) -> Any:
         """Values of a child; equal children of a line share theirs."""
@@ -69,7 +78,7 @@ class Laying:
 
     def _inner(self, text: str) -> PortRef:
         child, _, port = text.rpartition(".")
-        return PortRef(f"{self.line.path}.{child}", port)
+        return PortRef(self.below + child, port)
 
     def _join(self, *refs: PortRef) -> None:
         self.assembly.joins.append(Join(refs, self.line.where))
@@ -95,18 +104,24 @@ class Laying:
     def prescribed(self) -> set[PortRef]:
         """Ports whose motion is given: those of motion sources, and what links, racks and gears tie to them."""
         given, tied = [], [join.ports for join in self.assembly.joins]
-        for path, instance in self.assembly.instances.items():
-            says = instance.type.answers
+        for instance in of_classes(self.assembly.instances.values(), _prescribes_or_ties):
+            path, says = instance.path, instance.type.answers
             given += [PortRef(path, port) for port in (says.prescribes() if says.prescribes is not None else ())]
             ties = says.ties(instance.values) if says.ties is not None else ()
             tied += [(PortRef(path, a), PortRef(path, b)) for a, b, *_ in ties]
+        found = set(given)
+        if not given:
+            return found
         beside: dict[PortRef, list[tuple[PortRef, ...]]] = {}
         for ports in tied:
             for port in ports:
                 beside.setdefault(port, []).append(ports)
-        found = set(given)
         while given:
             more = {port for ports in beside.get(given.pop(), ()) for port in ports} - found
             found |= more
             given += more
         return found
+
+
+def _prescribes_or_ties(kind: type) -> bool:
+    return any(said is not None for said in (kind.answers.prescribes, kind.answers.ties))  # type: ignore[attr-defined]

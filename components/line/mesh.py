@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import functools
 import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -38,9 +39,12 @@ class Mesh:
 
     def reach(self, node: int) -> Reach:
         """The piece of line that a node stands for: half of each adjacent element."""
-        behind = self.length(node - 1) / 2 if node > 0 else 0.0
-        ahead = self.length(node) / 2 if node < self.elements else 0.0
-        return Reach(_tidy(behind), _tidy(ahead))
+        return self._reaches[node]
+
+    @functools.cached_property
+    def _reaches(self) -> list[Reach]:
+        halves = [0.0, *(_tidy(length / 2) for length in self.lengths), 0.0]
+        return [Reach(behind, ahead) for behind, ahead in itertools.pairwise(halves)]
 
     def beside(self, node: int, reach: Reach) -> tuple[int, int]:
         """The nodes inboard and outboard of one, half way to which its piece reaches; itself where that is nowhere."""

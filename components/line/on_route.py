@@ -54,11 +54,11 @@ class OnRoute:
         body, reach = f"{self.line.outer}[{i}]", self.line.mesh.reach(i)
         two = bool(self.line.inner) and i not in self.line.mesh.connectors
         bulkhead = (self.line.bulkheads or {}).get(i) if two else None
-        surfaces = [one for one in self.route.surfaces if self.rubs() or self.sums(one)]
+        surfaces = self.touched
         if i == 0 and any(self.given_by(drum) for drum in self.drums()):  # friction could not change its motion
             surfaces = []
         squeezed = self.clamps(i, body, reach) if surfaces or bulkhead is not None else {}
-        slots = [made for surface in surfaces if (made := self.contact(surface, i, body, reach, squeezed))]
+        slots = [made for one in surfaces if (made := self.contact(*one, i, body, reach, squeezed))]
         if bulkhead is not None:
             self.inner_contact(i, body, bulkhead, self.all_clamps(i, body, bulkhead, squeezed), slots)
         self.readings(i, body, reach)
@@ -75,6 +75,32 @@ class OnRoute:
         """Whether a body moves with the inboard end anyhow, as a node of a core that does not stretch."""
         return self.line.rigid and i > 0 and (body != f"{self.line.outer}[{i}]" or self.line.is_one_body(i))
 
+    @functools.cached_property
+    def touched(self) -> list[tuple[Surface, list[Window]]]:
+        """Surfaces that a node may touch, with what presses there besides tension; not those that change nothing."""
+        wanted = [one for one in self.route.surfaces if self.rubs() or self.sums(one)]
+        return [(one, one.pressed(self.line.weight)) for one in wanted]
+
+    @functools.cached_property
+    def bends(self) -> list[Window]:
+        """All bends, for what lies in the line."""
+        return [one.window(one.curvature) for one in self.route.placed if one.curvature]
+
+    @functools.cached_property
+    def tubes(self) -> list[Window]:
+        """What squeezes without being pressed."""
+        return [one.window(load) for one in self.route.placed if (load := one.station.squeeze())]
+
+    @functools.cached_property
+    def steep(self) -> list[Placed]:
+        """Devices with a slope."""
+        return [one for one in self.route.placed if one.station.slope]
+
+    @functools.cached_property
+    def reading(self) -> list[tuple[Placed, list[Window]]]:
+        """Devices that tell a tension, and where they read it."""
+        return [(one, [one.window(counts)]) for one in self.route.placed if (counts := one.station.reads())]
+
     def rubs(self) -> bool:
         """Whether the line rubs on devices."""
         return bool(self.line.values.device_friction == "on")
@@ -83,11 +109,12 @@ class OnRoute:
         """The sum of loads that a device keeps, for its bearing, which a line presses on also without friction."""
         return self.route.machinery[surface.name].total if surface.name in self.route.machinery else ""
 
-    def contact(self, surface: Surface, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
+    def contact(
+        self, surface: Surface, pressed: list[Window], i: int, body: str, reach: Reach, squeezed: dict[str, str]
+    ) -> str:
         """Loads and contact of a node with one surface; the name of the contact, none where there is no friction."""
         name = f"outer_{surface.name}" if surface.name else "outer"
         load, told = "", [one.name for one, _ in surface.devices]
-        pressed = surface.pressed(self.line.weight)
         if pressed:
             load = self.pressed_load(f"{name}_pressed[{i}]", body, reach, pressed)
         for one in told:
@@ -119,12 +146,10 @@ class OnRoute:
 
     def readings(self, i: int, body: str, reach: Reach) -> None:
         """What a node counts in the means of tensions that devices tell."""
-        for one in self.route.placed:
-            counts = one.station.reads()
-            if counts:
-                name, windows = f"reading_{one.name}", [one.window(counts)]
-                read = self.tension_load(f"{name}[{i}]", LateralLoad, i, body, reach, windows, self.line.layers, "")
-                self.tell(one.name, f"{name}_tells[{i}]", read)
+        for one, windows in self.reading:
+            name = f"reading_{one.name}"
+            read = self.tension_load(f"{name}[{i}]", LateralLoad, i, body, reach, windows, self.line.layers, "")
+            self.tell(one.name, f"{name}_tells[{i}]", read)
 
     def rub(self, name: str, i: int, surface: str, body: str, load: str, curve: Any, more: dict[str, float]) -> None:
         """The contact itself; for a line that twists, one in two directions or one in each."""
@@ -148,10 +173,9 @@ class OnRoute:
     def inner_contact(self, i: int, body: str, reach: Reach, clamped: str, slots: list[str]) -> None:
         """Bulkhead on hose: pressed by the tension of the core in bends, and by clamps."""
         core, load = f"{self.line.inner}[{i}]", clamped
-        curved = [one.window(one.curvature) for one in self.route.placed if one.curvature]
-        if curved:
+        if self.bends:
             layers = self.line.layers[1:]
-            load = self.tension_load(f"inner_load[{i}]", LateralLoad, i, core, reach, curved, layers, clamped)
+            load = self.tension_load(f"inner_load[{i}]", LateralLoad, i, core, reach, self.bends, layers, clamped)
         if not load:
             return
         curve = self.line.values.bulkhead_friction
@@ -213,7 +237,7 @@ class OnRoute:
 
     def all_clamps(self, i: int, body: str, reach: Reach, squeezed: dict[str, str]) -> str:
         """What squeezes a bulkhead: of one clamp the load on its node, of several their chain; tubes too."""
-        tubes = [one.window(one.station.squeeze()) for one in self.route.placed if one.station.squeeze()]
+        tubes = self.tubes
         if len(squeezed) <= 1 and not tubes and reach == self.line.mesh.reach(i):
             return next(iter(squeezed.values()), "")
         load = ""
@@ -294,7 +318,7 @@ class OnRoute:
     def weight(self, i: int, body: str, reach: Reach, bodies: list[str]) -> None:
         """Weight along the slope, divided between the layers by mass."""
         weight = self.line.weight
-        steep = [one for one in self.route.placed if one.station.slope]
+        steep = self.steep
         if not weight or not steep:
             return
         share = self.to.mass(body) / sum(map(self.to.mass, bodies))
@@ -348,8 +372,10 @@ class OnRoute:
 
     def bare(self) -> None:
         """Surfaces that no node can touch: standing ones, as guides of a line without weight, need no ground."""
-        joined = {ref for join in self.to.assembly.joins for ref in join.ports}
         ground = f"{self.path}.surface"
+        asked = {ground, *(f"{self.path}.{name}.{one.surface}".rpartition(".")[0]
+                           for name, one in self.route.machinery.items())}  # fmt: skip
+        joined = {ref for join in self.to.assembly.joins for ref in join.ports if ref.instance in asked}
         if not any(ref.instance == ground for ref in joined):
             self.to.assembly.instances.pop(ground, None)
         for name, mover in self.route.machinery.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections import Counter
@@ -31,7 +32,7 @@ class Placed:
         """Its window, counting `height` per length."""
         return Window(self.begin, self.end, height, self.station.edge)
 
-    @property
+    @functools.cached_property
     def curvature(self) -> float:
         """1/m; 0 when straight."""
         radius = self.station.bend_radius()

@@ -36,6 +36,10 @@ class Surface:
 
     def curved(self) -> list[Window]:
         """Curvature times grip along the route [1/m]."""
+        return self._curved
+
+    @functools.cached_property
+    def _curved(self) -> list[Window]:
         return [one.window(one.curvature * grip) for one, grip in self.devices if one.curvature]
 
     def pressed(self, weight: float) -> list[Window]:

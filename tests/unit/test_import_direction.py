@@ -31,7 +31,7 @@ ALLOWED = {
     "foreign": {"errors", "quantities", "component"},
     "components": {"brief", "errors", "quantities", "component", "foreign"},
     "flatten": {"brief", "errors", "quantities", "netlist", "component", "components"},
-    "kernels": {"brief", "component", "native"},
+    "kernels": {"brief", "component", "native", "sealed"},
     "system": {"brief", "errors", "quantities", "netlist", "component", "components", "flatten", "kernels", "native",
                "patterns", "distinct"},
     "describe": {"errors", "quantities", "component", "flatten", "kernels", "system"},

@@ -168,6 +168,25 @@ def test_an_installed_wheel_runs_each_engine_without_numba(elsewhere: Elsewhere)
     assert said.splitlines() == [f"{engine} finished True" for engine in ("rodas", "stepping", "ida")]
 
 
+FIRST_RUN = """
+import os
+import sys
+import tempfile
+
+os.environ["FAIRLEAD_CACHE"] = tempfile.mkdtemp()
+import fairlead
+
+print(fairlead.load("belt").run(out=None).status)
+for heavy in ("numba", "sympy"):
+    assert heavy not in sys.modules, heavy
+"""
+
+
+@pytest.mark.slow
+def test_the_first_run_of_an_installed_wheel_traces_no_law_of_a_bundled_part(elsewhere: Elsewhere) -> None:
+    assert elsewhere.call("-c", FIRST_RUN).strip() == "finished"
+
+
 @pytest.mark.slow
 def test_an_installed_wheel_takes_a_component_from_a_users_file(elsewhere: Elsewhere) -> None:
     (elsewhere.user / "parts.py").write_text(OWN_COMPONENT)

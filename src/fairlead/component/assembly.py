@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 from fairlead.brief import in_a_line
 from fairlead.component.base import Declared, Expansion
@@ -12,6 +12,9 @@ from fairlead.component.scene import Scene, TooManyParts
 from fairlead.component.values import Values, Variant, variant_of
 from fairlead.errors import Location
 from fairlead.netlist.netlist import Netlist
+
+Kind = type[Declared]
+V = TypeVar("V")
 
 
 @dataclass(frozen=True)
@@ -22,14 +25,27 @@ class Instance:
     values: Values
     where: Location
     variant: Variant
+    type: Kind = field(init=False, repr=False, compare=False)
+    """The component class."""
 
-    @property
-    def type(self) -> type[Declared]:
-        """The component class."""
-        return self.values.type
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "type", self.values.type)
 
     def __str__(self) -> str:
         return f"{self.path}: {self.variant.label}    {self.where}"
+
+
+def of_classes(instances: Iterable[Instance], fits: Callable[[Kind], object]) -> list[Instance]:
+    """Those whose class fits, in their order; a class is asked once, as a long line has thousands of each."""
+    asked: dict[Kind, object] = {}
+    found = []
+    for instance in instances:
+        kind = instance.type
+        if kind not in asked:
+            asked[kind] = fits(kind)
+        if asked[kind]:
+            found.append(instance)
+    return found
 
 
 def with_other(instance: Instance, **given: Any) -> Instance:
@@ -48,6 +64,11 @@ class PortRef(NamedTuple):
 
     def __str__(self) -> str:
         return f"{self.instance}.{self.port}"
+
+
+def asked_by_two(known: Mapping[PortRef, V]) -> Mapping[tuple[str, str], V]:
+    """The same map, to be asked by (path, name): that equals the PortRef, and is made in a tenth of the time."""
+    return cast(Any, known)
 
 
 class Join(NamedTuple):

@@ -133,8 +133,9 @@ def left_open(path: str, values: Values, aliases: Mapping[str, PortRef]) -> dict
 
 def _inner(assembly: Assembly, text: str) -> PortRef:
     owner, _, port = text.rpartition(".")
-    port = as_today(assembly, owner, port)
-    return assembly.aliases.get(f"{owner}.{port}") or PortRef(owner, port)
+    if (today := as_today(assembly, owner, port)) != port:
+        port, text = today, f"{owner}.{today}"
+    return assembly.aliases.get(text) or PortRef(owner, port)
 
 
 def _connect(assembly: Assembly, ends: tuple[EndPoint, ...]) -> list[Fault]:

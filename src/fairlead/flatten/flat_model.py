@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from fairlead.brief import in_a_line
-from fairlead.component.assembly import Assembly, Instance, PortRef
+from fairlead.component.assembly import Assembly, Instance, Kind, PortRef
 from fairlead.component.declare import Domain
 
 
@@ -47,11 +50,11 @@ class Group:
     start: tuple[float, float]  # position (or potential) and rate at the start
     prescribed: Prescribed | None
     given: tuple[bool, bool] = (False, False)  # whether a component gives that position, that rate
+    free: bool = field(init=False, repr=False, compare=False)
+    """True when the motion is unknown."""
 
-    @property
-    def free(self) -> bool:
-        """True when the motion is unknown."""
-        return self.prescribed is None
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "free", self.prescribed is None)
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,24 @@ class FlatModel:
 
     def place(self, port: PortRef) -> tuple[int, float, float]:
         """Group, ratio and offset of a port."""
-        return self.group_of[self.node_of[port]]
+        return self.places[port]
+
+    @functools.cached_property
+    def places(self) -> Mapping[tuple[str, str], tuple[int, float, float]]:
+        """Group, ratio and offset of every port, by path and name: a PortRef, or the two, is what it is asked by."""
+        return {port: self.group_of[node] for port, node in self.node_of.items()}
+
+    def those(self, fits: Callable[[Kind], object]) -> list[Instance]:
+        """The instances whose class fits, in their order; a class is asked once, and a long line has thousands."""
+        chosen = [places for kind, places in self._of_class.items() if fits(kind)]
+        return [self.instances[k] for k in (chosen[0] if len(chosen) == 1 else sorted(itertools.chain(*chosen)))]
+
+    @functools.cached_property
+    def _of_class(self) -> dict[Kind, list[int]]:
+        found: dict[Kind, list[int]] = {}
+        for k, instance in enumerate(self.instances):
+            found.setdefault(instance.type, []).append(k)
+        return found
 
     def __str__(self) -> str:
         free = sum(group.free for group in self.groups)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from fairlead.component.assembly import Assembly, Instance, PortRef
+from fairlead.component.assembly import Assembly, Instance, Kind, PortRef, asked_by_two
 from fairlead.component.base import Family
 from fairlead.component.friction_block import unheard
 from fairlead.component.values import input_given
@@ -62,17 +62,26 @@ def _of_a_stand_in(assembly: Assembly, fault: Fault) -> bool:
 def _without_effect(flat: FlatModel) -> list[Fault]:
     """Components whose two mechanical ends are one node: they can neither stretch nor slip."""
     faults = []
-    moving = {kind: [name for name, port in kind.declaration.ports.items() if port.domain.mechanical]
-              for kind in {instance.type for instance in flat.instances}}  # fmt: skip
-    for instance in flat.instances:
-        ports = [PortRef(instance.path, name) for name in moving[instance.type]]
-        if len(ports) < 2:
+    moving: dict[Kind, list[str]] = {}
+    for instance in flat.those(lambda kind: len(_moving(kind)) > 1):
+        if instance.type not in moving:
+            moving[instance.type] = _moving(instance.type)
+        first, *others = moving[instance.type]
+        path, node_of = instance.path, asked_by_two(flat.node_of)
+        one = node_of.get((path, first))
+        if one is not None and node_of.get((path, others[-1]), one) != one:
             continue
+        ports = [PortRef(path, name) for name in moving[instance.type]]
         if len({flat.node_of[port] for port in ports if port in flat.node_of}) == 1:
             both = " and ".join(map(flat.assembly.named, ports))
             what = f"{both} are joined with each other, so {instance.path} has no effect."
             faults.append(Fault(_where_joined(flat, ports), what, "Join them to different bodies."))
     return faults
+
+
+def _moving(kind: Kind) -> list[str]:
+    """Mechanical ports of a class."""
+    return [name for name, port in kind.declaration.ports.items() if port.domain.mechanical]
 
 
 def _where_joined(flat: FlatModel, ports: list[PortRef]) -> Location:
@@ -84,8 +93,8 @@ def _where_joined(flat: FlatModel, ports: list[PortRef]) -> Location:
 def _always_held(flat: FlatModel) -> list[Fault]:
     """What holds a slip that no motion of its one body can change: its force is not determined."""
     faults = []
-    for instance in flat.instances:
-        held = never_slips(flat, instance) if instance.type.declaration.unknowns else None
+    for instance in flat.those(lambda kind: kind.declaration.unknowns):
+        held = never_slips(flat, instance)
         if held is not None:
             body, ports = held
             sides, *_, last = (str(PortRef(instance.path, port)) for port in ports)
@@ -97,16 +106,13 @@ def _always_held(flat: FlatModel) -> list[Fault]:
 
 def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
     """What may hold two sides together needs one whose motion is unknown, else its force is not determined."""
-    faults = []
-    for instance in flat.instances:
-        has = instance.type.declaration
-        ends = [PortRef(instance.path, port) for port in ("a", "b")]
-        if instance.type.answers.bears:  # what it carries is told by the parts of the body, not by a motion
+    faults, node_of = [], asked_by_two(flat.node_of)
+    for instance in flat.those(_may_hold_two_sides):
+        a, b = (instance.path, "a"), (instance.path, "b")
+        sides = flat.groups[flat.places[a][0]], flat.groups[flat.places[b][0]]
+        if sides[0].free or sides[1].free or node_of[a] == node_of[b]:
             continue
-        if not has.unknowns or not {"a", "b"} <= set(has.ports) or flat.node_of[ends[0]] == flat.node_of[ends[1]]:
-            continue
-        sides = [flat.groups[flat.place(end)[0]] for end in ends]
-        if all(not side.free for side in sides) and never_slips(flat, instance) is None:
+        if never_slips(flat, instance) is None:
             who = " and ".join(dict.fromkeys(str(side.prescribed.by) for side in sides if side.prescribed))
             between = "between two prescribed motions" if sides[0] is not sides[1] else "across a prescribed motion"
             what = f"{instance.path} lies {between} ({who}); no law determines its force."
@@ -118,6 +124,12 @@ def _held_between_prescribed(flat: FlatModel) -> list[Fault]:
     return faults
 
 
+def _may_hold_two_sides(kind: Kind) -> bool:
+    """Whether a class has a force of its own between `a` and `b` that no part of a body tells (`bears`)."""
+    has = kind.declaration
+    return bool(has.unknowns) and {"a", "b"} <= set(has.ports) and not kind.answers.bears
+
+
 def _or_switch_off(flat: FlatModel, instance: Instance) -> str:
     """Of a child of a component with effects that are on: that one of them may be what brings it in."""
     of, inside, _ = instance.path.partition(".")
@@ -127,11 +139,13 @@ def _or_switch_off(flat: FlatModel, instance: Instance) -> str:
 
 
 def _missing_inputs(flat: FlatModel) -> list[Fault]:
-    faults = []
-    for instance in flat.instances:
+    faults, sources = [], asked_by_two(flat.sources)
+    for instance in flat.those(lambda kind: kind.declaration.inputs):
         for name, declared in instance.type.declaration.inputs.items():
+            if (instance.path, name) in sources:
+                continue
             ref = PortRef(instance.path, name)
-            if ref in flat.sources or ref in flat.assembly.excused or ref in flat.assembly.open_inputs:
+            if ref in flat.assembly.excused or ref in flat.assembly.open_inputs:
                 continue
             if input_given(instance.values, declared.default) is None:
                 give = f", or give {declared.default}" if isinstance(declared.default, str) else ""

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairlead.component.assembly import Assembly, Instance, PortRef
+from fairlead.component.assembly import Assembly, Instance, Kind, PortRef, of_classes
 from fairlead.component.declare import TRANSLATIONAL
 from fairlead.component.replies import AnswerError
 from fairlead.errors import Fault, listing
@@ -52,7 +53,7 @@ class Ties:
 
 
 def group(
-    assembly: Assembly, nodes: list[Node], node_of: dict[PortRef, int]
+    assembly: Assembly, nodes: list[Node], node_of: Mapping[PortRef, int]
 ) -> tuple[list[Group], dict[int, tuple[int, float, float]], list[Fault]]:
     """Merge tied nodes; returns groups, node -> (group, ratio, offset), and contradictions."""
     count = len(nodes)
@@ -81,6 +82,8 @@ def _told_by_a_body(tied: list[tuple[int, float, float]], nodes: list[Node], fac
     That is one that goes along rather than one that turns, and the heaviest of these where told by one motion: a matter
     of the scene, not of who is written first. A group without mass is told by its first node.
     """
+    if len(tied) == 1:  # by itself
+        return tied
     share = [ratio**2 * sum(value for kind, *_, value in facts.get(node, ()) if kind == "inertia")
              for node, ratio, _ in tied]  # fmt: skip
     alike = [share[k] > 0.0 and nodes[node].domain.name == ALONG for k, (node, *_) in enumerate(tied)]
@@ -92,10 +95,10 @@ def _told_by_a_body(tied: list[tuple[int, float, float]], nodes: list[Node], fac
     return [again[first], *again[:first], *again[first + 1 :]]
 
 
-def _apply_ties(assembly: Assembly, node_of: dict[PortRef, int], ties: Ties) -> list[Fault]:
+def _apply_ties(assembly: Assembly, node_of: Mapping[PortRef, int], ties: Ties) -> list[Fault]:
     faults: list[Fault] = []
     written: list[tuple[int, int, str]] = []  # the two nodes of every tie, and whose it is
-    for instance in assembly.instances.values():
+    for instance in of_classes(assembly.instances.values(), lambda kind: kind.answers.ties is not None):
         for a, b, ratio, offset in asked(instance, "ties", faults) or ():
             one, two = node_of[PortRef(instance.path, a)], node_of[PortRef(instance.path, b)]
             if not ties.tie(one, two, ratio, offset):
@@ -144,12 +147,17 @@ def asked(instance: Instance, name: str, faults: list[Fault]) -> Any:
         return None
 
 
+def _tells_of_motion(kind: Kind) -> bool:
+    """Whether a class says anything of how what it is joined to moves."""
+    return any(said is not None for said in (kind.answers.inertia, kind.answers.start, kind.answers.prescribes))
+
+
 def _facts(
-    assembly: Assembly, node_of: dict[PortRef, int], faults: list[Fault]
+    assembly: Assembly, node_of: Mapping[PortRef, int], faults: list[Fault]
 ) -> dict[int, list[tuple[str, Instance, PortRef, Any]]]:
     """Per node: inertias, start values and prescriptions of its components."""
     facts: dict[int, list[tuple[str, Instance, PortRef, Any]]] = {}
-    for instance in assembly.instances.values():
+    for instance in of_classes(assembly.instances.values(), _tells_of_motion):
         says = instance.type.answers
         for kind in ("inertia", "start"):
             for port, value in (asked(instance, kind, faults) or {}).items():

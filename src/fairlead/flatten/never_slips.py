@@ -19,10 +19,11 @@ from fairlead.flatten.kinematics import AGREES
 
 def never_slips(flat: FlatModel, instance: Instance) -> tuple[Group, list[str]] | None:
     """The one body of a row that cannot slip, and its ports there; None where every row can."""
-    refs = {port: PortRef(instance.path, port) for port in _mechanical(instance.type.declaration)}
-    places = {port: flat.place(ref) for port, ref in refs.items() if ref in flat.node_of}
-    nodes = {flat.node_of[refs[port]] for port in places}
-    if len(nodes) < 2 or len({group for group, *_ in places.values()}) == len(places):
+    path, known = instance.path, flat.places
+    places = {port: known[path, port] for port in _mechanical(instance.type.declaration) if (path, port) in known}
+    if len({place[0] for place in places.values()}) == len(places):
+        return None
+    if len({flat.node_of[PortRef(path, port)] for port in places}) < 2:
         return None  # ports that are joined with each other are told by themselves
     for terms in _rows(instance):
         groups = {places[port][0] for port in terms}

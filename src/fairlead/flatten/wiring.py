@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import functools
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from fairlead.component.assembly import Assembly, Join, PortRef
@@ -21,53 +23,73 @@ ENDS = {
     "thermal": "a body that is warmed needs a HeatCapacity, the surroundings a FixedTemperature",
 }
 """By domain, what is joined to a port that leads nowhere."""
+SIGNAL = {"signal"}
 
 
 @dataclass(frozen=True)
 class PortGraph:
-    """All ports, and the signals that are joined."""
+    """All ports, and the signals that are joined: who each is and what it is, by number, and the numbers joined."""
 
-    declared: dict[PortRef, Port | Input | Output] = field(default_factory=dict)
-    where: dict[PortRef, Location] = field(default_factory=dict)
-    joined: dict[PortRef, dict[PortRef, Location]] = field(default_factory=dict)
-    """For every two that are joined, both ways, where that is written."""
+    joins: Sequence[Join]
+    refs: list[PortRef]
+    declared: list[Port | Input | Output]
+    beside: dict[int, list[int]]
 
-    def add(self, ref: PortRef, declared: Port | Input | Output, where: Location) -> None:
-        """Add one, joined with nothing yet."""
-        self.declared[ref], self.where[ref] = declared, where
-        self.joined[ref] = {}
+    @functools.cached_property
+    def joined(self) -> dict[PortRef, dict[PortRef, Location]]:
+        """For every two that are joined, both ways, where that is written; only mistakes ask for it."""
+        found: dict[PortRef, dict[PortRef, Location]] = {ref: {} for ref in self.refs}
+        for join in self.joins:
+            for a, b in pairwise(join.ports):
+                found[a][b] = found[b][a] = join.where
+        return found
 
 
 def port_graph(assembly: Assembly) -> PortGraph:
     """The graph of all ports and of the joined signals, with an edge for every two that are joined."""
-    graph = PortGraph()
-    for path, instance in assembly.instances.items():
-        for name, port in instance.type.declaration.ports.items():
-            graph.add(PortRef(path, name), port, instance.where)
+    instances = assembly.instances
+    refs = [PortRef(path, name) for path, one in instances.items() for name in one.type.declaration.ports]
+    declared: list[Port | Input | Output] = []
+    for one in instances.values():
+        declared += one.type.declaration.ports.values()
+    number = {ref: k for k, ref in enumerate(refs)}
+    beside: dict[int, list[int]] = {k: [] for k in range(len(refs))}
     for join in assembly.joins:
+        before = -1
         for ref in join.ports:
-            if ref not in graph.declared:
-                has, where = assembly.instances[ref.instance].type.declaration, assembly.instances[ref.instance].where
-                graph.add(ref, has.inputs.get(ref.port) or has.outputs[ref.port], where)
-        for a, b in zip(join.ports, join.ports[1:], strict=False):
-            graph.joined[a][b] = graph.joined[b][a] = join.where
-    return graph
+            at = number.get(ref)
+            if at is None:
+                has = instances[ref.instance].type.declaration
+                at = number[ref] = len(refs)
+                refs.append(ref)
+                declared.append(has.inputs.get(ref.port) or has.outputs[ref.port])
+                beside[at] = []
+            if before >= 0:
+                beside[before].append(at)
+                beside[at].append(before)
+            before = at
+    return PortGraph(assembly.joins, refs, declared, beside)
 
 
 def wire(assembly: Assembly, graph: PortGraph) -> tuple[list[Node], dict[PortRef, PortRef], list[Fault]]:
     """Nodes and signal links, and everything wrong with the connections."""
-    faults = [_to_itself(assembly, join) for join in assembly.joins if len(set(join.ports)) < len(join.ports)]
+    faults = [_to_itself(assembly, join) for join in assembly.joins if _named_twice(join.ports)]
     nodes: list[Node] = []
     links: dict[PortRef, PortRef] = {}
     alone: dict[str, list[PortRef]] = {}
-    for members in connected_parts(graph.joined):
-        ports = sorted(members, key=str) if 1 < len(members) < 50 else members
-        declared: dict[PortRef, Any] = {ref: graph.declared[ref] for ref in ports}
-        if len({_kind(d) for d in declared.values()}) > 1:
+    for numbers in connected_parts(graph.beside):
+        kinds = {_kind(graph.declared[k]) for k in numbers}
+        if kinds == SIGNAL and (plain := _plain_links(graph, numbers)):  # most of a long line
+            links |= plain
+            continue
+        each = {graph.refs[k]: graph.declared[k] for k in numbers}
+        ports = sorted(each, key=".".join) if 1 < len(each) < 50 else list(each)
+        declared: dict[PortRef, Any] = {ref: each[ref] for ref in ports}
+        if len(kinds) > 1:
             faults.append(_mixed(assembly, graph, declared))
             assembly.excuse({ref.instance for ref, d in declared.items() if not isinstance(d, Port)})
-        elif isinstance(declared[ports[0]], Input | Output):
-            found, wrong = _signal(assembly, declared, _written(graph, ports))
+        elif kinds == SIGNAL:
+            found, wrong = _signal(assembly, graph, declared)
             links |= found
             faults += wrong
             assembly.excused.update(ports if wrong else ())
@@ -77,6 +99,22 @@ def wire(assembly: Assembly, graph: PortGraph) -> tuple[list[Node], dict[PortRef
                 if len(ports) == 1 and not declared[ports[0]].optional:
                     alone.setdefault(ports[0].instance, []).append(ports[0])
     return nodes, links, faults + _dangling(assembly, alone)
+
+
+def _named_twice(ports: tuple[PortRef, ...]) -> bool:
+    return ports[0] == ports[1] if len(ports) == 2 else len(set(ports)) < len(ports)
+
+
+def _plain_links(graph: PortGraph, numbers: list[int]) -> dict[PortRef, PortRef]:
+    """Inputs and the one output, all of one unit, that they are joined with; nothing for anything else."""
+    outputs = [k for k in numbers if isinstance(graph.declared[k], Output)]
+    units = {graph.declared[k].unit for k in numbers}  # type: ignore[union-attr]  # all are signals
+    if len(outputs) != 1 or len(units) > 1:
+        return {}
+    inputs = [graph.refs[k] for k in numbers if k != outputs[0]]
+    if len(inputs) > 1 and len(numbers) < 50:
+        inputs.sort(key=".".join)
+    return dict.fromkeys(inputs, graph.refs[outputs[0]])
 
 
 def _by_domain(declared: dict[PortRef, Any]) -> Iterator[tuple[Domain, tuple[PortRef, ...]]]:
@@ -94,12 +132,13 @@ def _kind(declared: Port | Input | Output) -> str:
     return declared.domain.name if isinstance(declared, Port) else "signal"
 
 
-def _written(graph: PortGraph, ports: list[PortRef]) -> Location:
-    return next((where for a in ports for where in graph.joined[a].values()), graph.where[ports[0]])
+def _written(graph: PortGraph, ports: Iterable[PortRef]) -> Location:
+    """Where the first of the connections between them is written; there is one, as one signal alone is no mistake."""
+    return next(where for a in ports for where in graph.joined[a].values())
 
 
 def _signal(
-    assembly: Assembly, declared: dict[PortRef, Input | Output], where: Location
+    assembly: Assembly, graph: PortGraph, declared: dict[PortRef, Input | Output]
 ) -> tuple[dict[PortRef, PortRef], list[Fault]]:
     """One output feeds any number of inputs."""
     outputs = [ref for ref, d in declared.items() if isinstance(d, Output)]
@@ -107,6 +146,7 @@ def _signal(
     odd = _other_unit(declared, outputs[0]) if len(outputs) == 1 else None
     if len(declared) == 1 or (len(outputs) == 1 and odd is None):
         return dict.fromkeys(inputs, outputs[0]) if outputs else {}, []
+    where = _written(graph, declared)
     if odd is not None:
         of = declared[outputs[0]].unit
         what = f"{assembly.named(outputs[0])} is in {of}, {assembly.named(odd)} wants {declared[odd].unit}."

@@ -18,6 +18,7 @@ from typing import Any
 from fairlead.brief import in_a_line
 from fairlead.component.dependencies import dependencies
 from fairlead.component.values import Variant
+from fairlead.kernels.lowered_ahead import Given, find
 from fairlead.kernels.structure import Structure
 from fairlead.native import Build, Native, digest, load_or_compile
 
@@ -52,10 +53,24 @@ def kernel(variant: Variant, rated: int = 0) -> Kernel:
 
 
 def _build(variant: Variant, rated: int = 0) -> Build:
-    from fairlead.kernels.lowering import lower
+    from fairlead.kernels.lowering import lower, optimised
 
+    if (given := find(variant, rated)) is not None:
+        return Build(given.facts, {"kernel": optimised("kernel", given.bitcode)})
     source, structure = write_source(variant, rated)
     return Build(asdict(structure), {"kernel": lower(source, "kernel", file=f"<kernel of {variant.label}>")})
+
+
+def lowered(variant: Variant, rated: int) -> Given:
+    """The kernel of a variant, traced and lowered, before any pass of LLVM: for any processor."""
+    import llvmlite.binding as llvm
+
+    from fairlead.kernels.lowered_values import KERNEL
+    from fairlead.kernels.lowering import written
+
+    source, structure = write_source(variant, rated)
+    text = written({"kernel": (source, KERNEL, "None")}, file=f"<kernel of {variant.label}>")
+    return Given(asdict(structure), llvm.parse_assembly(text).as_bitcode())
 
 
 @functools.lru_cache(maxsize=256)  # both the machine code and the Python function of a class are made of it

@@ -83,6 +83,19 @@ def lower_together(
     What they share is compiled once, and short loops are written out several times if they may be `unrolled`.
     Raises LoweringError.
     """
+    text = _optimised(llvm.parse_assembly(written(functions, shared, file)), unrolled)
+    return {name: Lowered(name, text) for name in functions}
+
+
+def optimised(name: str, bitcode: bytes) -> Lowered:
+    """What `lower` gives for the function of this name, of which `written` gave the code before, now in bitcode."""
+    return Lowered(name, _optimised(llvm.parse_bitcode(bitcode), unrolled=False))
+
+
+def written(
+    functions: Mapping[str, tuple[Source, Sequence[str], str]], shared: Sequence[Source] = (), file: str = "<text>"
+) -> str:
+    """LLVM text of a module with these functions, as `lower_together` takes them, before any pass of LLVM."""
     module = ir.Module("fairlead")
     for text in shared:
         tree, where = _parsed(text, file)
@@ -91,8 +104,7 @@ def lower_together(
     for name, (source, kinds, returns) in functions.items():
         tree, where = _parsed(source, file)
         _define(module, tree, where, name, kinds, returns)
-    text = _optimised(str(module), unrolled)
-    return {name: Lowered(name, text) for name in functions}
+    return str(module)
 
 
 def _parsed(source: Source, file: str) -> tuple[ast.FunctionDef, Where]:
@@ -139,9 +151,8 @@ def _stored(tree: ast.FunctionDef) -> set[str]:
     return found
 
 
-def _optimised(text: str, unrolled: bool) -> str:
+def _optimised(module: llvm.ModuleRef, unrolled: bool) -> str:
     machine = target_machine()
-    module = llvm.parse_assembly(text)
     module.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=2)
     options.loop_unrolling = unrolled

@@ -34,7 +34,7 @@ from fairlead.system.compiled.system import System
 from fairlead.system.numbering.initial import starts
 from fairlead.system.numbering.loops import without_loops
 from fairlead.system.numbering.parts_of_bodies import rings
-from fairlead.system.numbering.ranks import signal_ranks
+from fairlead.system.numbering.ranks import followed, signal_ranks
 from fairlead.system.numbering.sizes import nominal_faults
 from fairlead.system.numbering.unknowns import groups_with_rate_forces, number
 from fairlead.system.start.driven import overridden
@@ -45,7 +45,9 @@ from fairlead.system.start.speeds import started
 @collected_later
 def compile(flat: FlatModel) -> System:
     """Compile a flat model. Raises ModelError for laws that cannot be traced, loops of signals and open parts."""
-    flat, kernels = without_loops(flat, _kernels(flat))
+    whole, kernels = flat, _kernels(flat)
+    links = followed(flat, kernels)
+    flat, kernels = without_loops(flat, kernels, links)
     structures = {path: made.structure for path, made in kernels.items()}
     if faults := unfit(flat, structures):
         raise ModelError(faults)
@@ -56,7 +58,7 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     geared = geared_groups(flat, structures) - rated - groups_with_rate_forces(flat, structures)
     numbering = number(flat, structures, energy=energy_counted(flat), rated=rated, geared=geared, rates=rates)
-    ranks = signal_ranks(flat, kernels)
+    ranks = signal_ranks(flat, kernels, links if flat is whole and not rated else followed(flat, kernels))
     blocks, tables, machines = build_blocks(flat, kernels, numbering, ranks, HOLD_TIME)
     still_supports(blocks, numbering, rows_eliminated(blocks, numbering))
     begin, initially, faults = starts(flat, numbering)
@@ -123,11 +125,13 @@ def energy_counted(flat: FlatModel) -> bool:
 def untraceable(flat: FlatModel) -> list[Fault]:
     """Laws that cannot be traced, one fault a class; each names the author's file and line."""
     faults: dict[Variant, Fault] = {}
-    for variant, instance in {instance.variant: instance for instance in reversed(flat.instances)}.items():
+    for instance in {id(instance.variant): instance for instance in reversed(flat.instances)}.values():
+        variant = instance.variant
         try:
             kernel(variant)
         except (TypeError, ModelError) as error:  # TraceError, and what an author's law may raise when it is run
-            faults[variant] = Fault(instance.where, f"{instance.path}: {error}")
+            first = next(one for one in flat.instances if one.variant == variant)
+            faults[variant] = Fault(first.where, f"{first.path}: {error}")
     return list(faults.values())
 
 
@@ -135,4 +139,8 @@ def _kernels(flat: FlatModel) -> dict[str, Kernel]:
     faults = untraceable(flat)
     if faults:
         raise ModelError(faults)
-    return {instance.path: kernel(instance.variant) for instance in flat.instances}
+    made: dict[int, Kernel] = {}
+    for instance in flat.instances:  # a variant is asked once: to compare two of them takes long
+        if id(instance.variant) not in made:
+            made[id(instance.variant)] = kernel(instance.variant)
+    return {instance.path: made[id(instance.variant)] for instance in flat.instances}

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairlead.brief import in_a_line
-from fairlead.component.assembly import Instance, PortRef
+from fairlead.component.assembly import Instance, PortRef, asked_by_two
 from fairlead.component.keys import INPUT, OWN, PORT, RATE, TAU, TIME, key, rate_of
 from fairlead.component.piecewise import STRIDE, PiecewisePolynomial
 from fairlead.component.values import input_given, parameter, polynomial
@@ -82,8 +82,9 @@ def build_blocks(
 ) -> tuple[list[Block], Tables, list[tuple[str, int]]]:
     """Blocks, tables, and the machines in the order of their positions in `zones`: (instance, number in it)."""
     grouped: dict[int, list[Instance]] = {}
+    addresses = {id(one): one.address for one in {id(one): one for one in kernels.values()}.values()}
     for instance in flat.instances:
-        grouped.setdefault(kernels[instance.path].address, []).append(instance)
+        grouped.setdefault(addresses[id(kernels[instance.path])], []).append(instance)
     tables = Tables()
     machines: list[tuple[str, int]] = []
     blocks = []
@@ -122,7 +123,8 @@ class _Ports:
     def places(self, port: str) -> list[tuple[int, float, float]]:
         """Of a port, in the order of the instances."""
         if port not in self._known:
-            self._known[port] = [self.flat.place(PortRef(instance.path, port)) for instance in self.instances]
+            places = self.flat.places
+            self._known[port] = [places[instance.path, port] for instance in self.instances]
         return self._known[port]
 
 
@@ -135,11 +137,42 @@ def _inputs(
     for j, text in enumerate(inputs):
         one = key(text)
         if one.kind == PORT:
-            found = [place_of_motion(flat, numbering, *at, one.part) for at in ports.places(one.name)]
+            found = _motions(flat, numbering, ports.places(one.name), one.part)
+        elif one.kind == INPUT and one.part != RATE:
+            found = _signal_inputs(flat, numbering, ports.instances, one.name)
         else:
             found = [place_of_input(flat, numbering, instance, text) for instance in ports.instances]
         index[:, j], coef[:, j], offset[:, j] = zip(*found, strict=True)
     return index, coef, offset
+
+
+def _motions(
+    flat: FlatModel, numbering: Numbering, places: Iterable[tuple[int, float, float]], part: str
+) -> list[tuple[int, float, float]]:
+    """As `place_of_motion` has them; what moves freely, as nearly all of a long line, is looked up here."""
+    where = {"x": numbering.position, "v": numbering.rate}.get(part, {})
+    groups, found = flat.groups, []
+    for index, ratio, offset in places:
+        at = where.get(index)
+        if at is None or not groups[index].free:
+            found.append(place_of_motion(flat, numbering, index, ratio, offset, part))
+        else:
+            found.append((at, ratio, offset if part == "x" else 0.0))
+    return found
+
+
+def _signal_inputs(
+    flat: FlatModel, numbering: Numbering, instances: Iterable[Instance], name: str
+) -> list[tuple[int, float, float]]:
+    """As `_signal_input` has them; one that is joined is looked up here."""
+    n, signals, found = numbering.n, numbering.signals, []
+    sources = asked_by_two(flat.sources)
+    for instance in instances:
+        source = sources.get((instance.path, name))
+        found.append(
+            _signal_input(flat, numbering, instance, name) if source is None else (n + signals[source], 1.0, 0.0)
+        )
+    return found
 
 
 def _flows(
@@ -165,8 +198,8 @@ def _flows(
 
 def _signals(numbering: Numbering, instances: list[Instance], outputs: Sequence[str]) -> Integers:
     """[instances, outputs]: where each goes in z."""
-    n, dump, signals = numbering.n, numbering.dump, numbering.signals
-    rows = [[signals.get(PortRef(instance.path, name)) for name in outputs] for instance in instances]
+    n, dump, signals = numbering.n, numbering.dump, asked_by_two(numbering.signals)
+    rows = [[signals.get((instance.path, name)) for name in outputs] for instance in instances]
     return _integers([[dump if place is None else n + place for place in row] for row in rows])
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -29,26 +29,28 @@ def signals(
     flat: FlatModel, blocks: Sequence[Block], portions: Sequence[Portion], numbering: Numbering
 ) -> list[OutputSignal]:
     """Every output of every instance, also under the outer names of composites, and the ledger."""
-    found = [signal for pair in zip(blocks, portions, strict=True) for signal in _of_block(*pair)]
-    by_name = {signal.name: signal for signal in found}
+    of: dict[str, list[OutputSignal]] = {}
+    for block, portion in zip(blocks, portions, strict=True):
+        of |= _of_block(block, portion)
+    outer_ones: list[OutputSignal] = []
     for outer, inner in flat.assembly.aliases.items():
-        if str(inner) in by_name and outer != str(inner):
-            signal = by_name[str(inner)]
-            found.append(replace(signal, name=outer))
-    order = {instance.path: place for place, instance in enumerate(flat.instances)}
-    found.sort(key=lambda signal: order.get(signal.name.rpartition(".")[0], -1))
+        if outer != (name := str(inner)):
+            again = [one._replace(name=outer) for one in of.get(inner.instance, ()) if one.name == name]
+            of.get(outer.rpartition(".")[0], outer_ones).extend(again)
+    found = outer_ones + [signal for instance in flat.instances for signal in of[instance.path]]
     ledger = [OutputSignal(f"energy.{line}", "J", f"Energy {line}.", -1 - at) for line, at in numbering.ledger.items()]
     return found + ledger
 
 
-def _of_block(block: Block, portion: Portion) -> list[OutputSignal]:
+def _of_block(block: Block, portion: Portion) -> dict[str, list[OutputSignal]]:
+    """The outputs of every instance of a block, by its path."""
     s, has = block.kernel.structure, block.kernel.variant.type.declaration
-    return [
-        OutputSignal(
-            f"{instance.path}.{name}", has.outputs[name].unit, has.outputs[name].doc,
-            portion.outputs + i * len(s.all_outputs) + k, has.outputs[name].role, has.outputs[name].rounded_by,
-        )
-        for i, instance in enumerate(block.instances)
-        for k, name in enumerate(s.outputs)
-        if name in has.outputs
-    ]  # fmt: skip
+    told = [(k, name, has.outputs[name]) for k, name in enumerate(s.outputs) if name in has.outputs]
+    each = len(s.all_outputs)
+    return {
+        instance.path: [
+            OutputSignal(f"{instance.path}.{name}", one.unit, one.doc, first + k, one.role, one.rounded_by)
+            for k, name, one in told
+        ]
+        for first, instance in zip(itertools.count(portion.outputs, each), block.instances, strict=False)
+    }

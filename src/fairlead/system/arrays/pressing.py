@@ -22,7 +22,7 @@ class Pressed(NamedTuple):
 def pressed(flat: FlatModel) -> list[Pressed]:
     """Contacts of the netlist that a signal presses, and that have the `lift` that nobody gave."""
     found = []
-    for instance in flat.instances:
+    for instance in flat.those(lambda kind: kind.answers.pressed_by):
         type_ = instance.type
         by, parameter = type_.answers.pressed_by, type_.declaration.parameters.get(LIFT)
         if not by or parameter is None or instance.path not in flat.assembly.entries:

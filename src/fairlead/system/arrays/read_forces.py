@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fairlead.kernels.structure import Structure
 from fairlead.system.arrays.blocks import Block, Integers
@@ -26,9 +27,7 @@ def pressing(blocks: Sequence[Block], numbering: Numbering) -> Integers:
                 continue
             at, row = s.inputs.index(f"own:{unknown}"), s.targets.index(f"own:{unknown}")
             sign = -int(np.sign(s.senses[unknown]))
-            for inputs, rows in zip(block.in_index.tolist(), block.flow_index.tolist(), strict=True):
-                if inputs[at] in read:
-                    found.append((rows[row], sign))
+            found += [(k, sign) for k in block.flow_index[read[block.in_index[:, at]], row].tolist()]
     return np.array(found, dtype=np.int64).reshape(-1, 2)
 
 
@@ -38,25 +37,24 @@ def _holds_for_ever(s: Structure, unknown: str) -> bool:
     return known and set(s.holds[unknown]) == set(s.zones)
 
 
-def _read_by_laws(blocks: Sequence[Block], numbering: Numbering) -> set[int]:
+def _read_by_laws(blocks: Sequence[Block], numbering: Numbering) -> NDArray[np.bool_]:
     """Places in z of signals that flows depend on, and of what those signals are made of."""
     n, dump, end = numbering.n, numbering.dump, numbering.first_reaction
-    read = {
-        inputs[i]
-        for block in blocks
-        for inputs in block.in_index.tolist()
-        for _, i in block.kernel.structure.d_flows
-        if n <= inputs[i] < end
-    }
-    made = [
-        (outputs[o], inputs[i])
-        for block in blocks
-        for inputs, outputs in zip(block.in_index.tolist(), block.sig_index.tolist(), strict=True)
-        for o, i in block.kernel.structure.d_signals
-        if outputs[o] != dump
-    ]
+    size = 1 + max([dump, *(int(block.in_index.max(initial=0)) for block in blocks)])
+    read = np.zeros(size, dtype=bool)
+    results, sources = [], []
+    for block in blocks:
+        s = block.kernel.structure
+        for i in {i for _, i in s.d_flows}:
+            read[block.in_index[:, i]] = True
+        for o, i in s.d_signals:
+            results.append(block.sig_index[:, o])
+            sources.append(block.in_index[:, i])
+    read[:n] = read[end:] = False
+    result, source = (np.concatenate(many) if many else np.zeros(0, dtype=np.int64) for many in (results, sources))
+    result, source = result[result != dump], source[result != dump]
     before = -1
-    while len(read) > before:
-        before = len(read)
-        read |= {source for result, source in made if result in read}
+    while (now := int(read.sum())) > before:
+        before = now
+        read[source[read[result]]] = True
     return read

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,8 +20,7 @@ WATCHED = (CREEP, STRAIN, PULL, INTEGRAL, USED_UP)
 """Roles of outputs that every run looks at, whatever is recorded."""
 
 
-@dataclass(frozen=True)
-class OutputSignal:
+class OutputSignal(NamedTuple):
     """One recordable output."""
 
     name: str
@@ -62,10 +62,12 @@ class Recording:
 
 
 def choose(
-    signals: Sequence[OutputSignal], patterns: Iterable[str], blocks: Sequence[Block], numbering: Numbering,
+    signals: Sequence[OutputSignal], patterns: Collection[str], blocks: Sequence[Block], numbering: Numbering,
     memory: Memory, also: Collection[str] = (),
 ) -> Recording:  # fmt: skip
     """The signals of a System whose names fit a pattern with * and ?; a run watches those in `also`, too."""
+    if "*" in patterns:
+        return recording(list(signals), list(signals), blocks, numbering, memory)
     known = {s.name: None for s in signals}
     names = {name for pattern in patterns for name in picked(known, pattern)}
     chosen = [s for s in signals if s.name in names]

@@ -31,11 +31,12 @@ def guards(blocks: Sequence[Block]) -> tuple[list[Named], Memory]:
         first = len(to)
         to += _targets(block)
         slots = _slots(block)
-        for i, instance in enumerate(block.instances):
-            zoned = len(block.kernel.structure.zones) > 1
+        zoned = len(block.kernel.structure.zones) > 1
+        owners = block.machines[:, 0].tolist() if slots else []
+        for instance, machine in zip(block.instances, owners, strict=bool(slots)):
             for k, (name, unit) in enumerate(slots):
-                place.append((block.machines[i, 0] if zoned else -1, first, len(slots), k))
-                machines.append(block.machines[i, 0])
+                place.append((machine if zoned else -1, first, len(slots), k))
+                machines.append(machine)
                 named.append((f"{instance.path} {name}", unit))
     return named, {
         "guard_place": np.array(place, dtype=np.int64).reshape(-1, layout.GUARD_ROW),
@@ -170,7 +171,10 @@ def kinks(blocks: Sequence[Block]) -> Integers:
     found: list[int] = []
     for block in blocks:
         slots = [{(g["to"] < 0, g["machine"]) for g in of_slot} for of_slot in _sharing(block)]
-        for row in block.machines:
+        if not any(all(leads for leads, _ in slot) for slot in slots):
+            found += [0] * (len(slots) * block.count)
+            continue
+        for row in block.machines.tolist():
             found += [all(leads and row[machine] in smooth for leads, machine in slot) for slot in slots]
     return np.array(found, dtype=np.int64)
 
@@ -242,7 +246,8 @@ def machine_zones(blocks: Sequence[Block], count: int) -> list[Sequence[str]]:
 
 def machine_owners(blocks: Sequence[Block], count: int) -> list[tuple[Block, int]]:
     """Block and instance of every machine."""
-    owner = {int(machine): (block, i) for block in blocks for i, row in enumerate(block.machines) for machine in row}
+    owner = {machine: (block, i)
+             for block in blocks for i, row in enumerate(block.machines.tolist()) for machine in row}  # fmt: skip
     return [owner[machine] for machine in range(count)]
 
 

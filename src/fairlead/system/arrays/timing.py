@@ -32,10 +32,13 @@ def tables(blocks: Sequence[Block]) -> Iterator[PlacedTable]:
         s = block.kernel.structure
         first = s.machines - len(s.tables)
         for column, path in enumerate(s.tables):
-            for i, instance in enumerate(block.instances):
-                value = polynomial(instance.values.path(path))
-                machine, base = int(block.machines[i, first + column]), int(block.table_base[i, column])
-                yield PlacedTable(path, value, machine, base, path in s.time_tables)
+            known: dict[int, PiecewisePolynomial] = {}  # nodes of a line share their values
+            machines, bases = block.machines[:, first + column].tolist(), block.table_base[:, column].tolist()
+            for instance, machine, base in zip(block.instances, machines, bases, strict=True):
+                values = instance.values
+                if id(values) not in known:
+                    known[id(values)] = polynomial(values.path(path))
+                yield PlacedTable(path, known[id(values)], machine, base, path in s.time_tables)
 
 
 def time_places(blocks: Sequence[Block]) -> Integers:

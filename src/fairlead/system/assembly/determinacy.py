@@ -63,14 +63,13 @@ def _unknown_speeds(flat: FlatModel, numbering: Numbering, blocks: list[Block]) 
     """A node held by springs alone has a position and no speed; whoever reads its speed would read nothing."""
     readers: dict[int, list[PortRef]] = {}
     holders: dict[int, list[str]] = {}
-    for block in blocks:
+    without = {k for k, one in enumerate(flat.groups) if one.free and one.domain.mechanical and k not in numbering.rate}
+    for block in blocks if without else ():
         s = block.kernel.structure
         holds = any(s.zones[0] in zones for zones in s.holds.values())
         ports = [one.name for one in map(key, s.inputs) if one.is_speed]
         for port in (PortRef(instance.path, name) for instance in block.instances for name in ports):
-            index, _, _ = flat.place(port)
-            group = flat.groups[index]
-            if group.free and group.domain.mechanical and index not in numbering.rate:
+            if flat.place(port)[0] in without:
                 readers.setdefault(flat.node_of[port], []).append(port)
                 holders.setdefault(flat.node_of[port], []).extend([port.instance] if holds else [])
     for number, ports_ in readers.items():

@@ -143,8 +143,9 @@ def guard_inertias(
         s = block.kernel.structure
         for unknown, speeds in s.pairs.items():
             slots = sorted({k for ks in stops(block, s.holds[unknown]).values() for k in ks})
-            for i, instance in enumerate(block.instances if slots else ()):
-                made[[portion.guards + i * s.slots + k for k in slots]] = inertia(
-                    flat, ends(flat, instance.path, speeds)
-                )
+            if slots:
+                each = [inertia(flat, ends(flat, instance.path, speeds)) for instance in block.instances]
+                at = portion.guards + s.slots * np.arange(block.count)
+                for k in slots:
+                    made[at + k] = each
     return made

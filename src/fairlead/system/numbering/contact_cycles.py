@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from fairlead.component.assembly import Instance, PortRef
+from fairlead.component.assembly import Instance
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels.break_away import number_of
 from fairlead.kernels.structure import Structure
@@ -88,6 +88,8 @@ def _standing(flat: FlatModel, structures: Mapping[str, Structure]) -> frozenset
 
 def _pairs(flat: FlatModel, instance: Instance, structure: Structure, still: frozenset[int]) -> Iterator[HeldPair]:
     path = instance.path
+    if not (structure.pairs or structure.ratios):
+        return
     for unknown, speeds in {**structure.pairs, **weighed(instance, structure)}.items():
         joined = ends(flat, path, speeds, still)
         moving = [one for one in joined if one[0] != REST]  # a lever whose pivot stands joins two
@@ -120,7 +122,7 @@ def ends(
 
 def _end(flat: FlatModel, path: str, port: str, speed: float, still: Collection[int]) -> tuple[int, float]:
     """The group a port belongs to, and what a unit of its speed adds to the slip, for a `speed` at the port."""
-    index, ratio, _ = flat.place(PortRef(path, port))
+    index, ratio, _ = flat.places[path, port]
     prescribed = flat.groups[index].prescribed
     stands = index in still or (prescribed is not None and prescribed.outputs is None)
     return (REST, 1.0) if stands else (index, speed * ratio)

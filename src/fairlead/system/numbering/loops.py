@@ -27,7 +27,7 @@ from fairlead.errors import Fault
 from fairlead.flatten.flat_model import FlatModel, SignalLoop
 from fairlead.flatten.graph import ranks
 from fairlead.kernels.kernel import Kernel, kernel
-from fairlead.system.numbering.ranks import circle, followed
+from fairlead.system.numbering.ranks import Links, circle
 
 
 class Torn(Component, abstract=True):
@@ -46,12 +46,14 @@ def torn(unit: str) -> type[Component]:
     return type("SignalLoop", (Torn,), body)
 
 
-def without_loops(flat: FlatModel, kernels: dict[str, Kernel]) -> tuple[FlatModel, dict[str, Kernel]]:
-    """The model with a cut in every loop of signals, and the kernels of all its instances.
+def without_loops(
+    flat: FlatModel, kernels: dict[str, Kernel], links: Links
+) -> tuple[FlatModel, dict[str, Kernel]]:
+    """The model with a cut in every loop of signals (`links`, see `followed`), and the kernels of all its instances.
 
     A loop that nothing but a given motion closes is left as it is.
     """
-    made = cut(flat, list(_loops(flat, kernels)))
+    made = cut(flat, list(_loops(flat, links)))
     return made, kernels | {one.path: kernel(one.variant) for one in made.instances if one.path not in kernels}
 
 
@@ -73,9 +75,8 @@ def cut(flat: FlatModel, loops: Sequence[SignalLoop]) -> FlatModel:
     return replace(flat, assembly=assembly, instances=(*flat.instances, *added), sources=sources, loops=tuple(loops))
 
 
-def _loops(flat: FlatModel, kernels: dict[str, Kernel]) -> Iterator[SignalLoop]:
+def _loops(flat: FlatModel, links: Links) -> Iterator[SignalLoop]:
     """Every loop, with the output behind which it is cut, one after the other until none is left."""
-    links = followed(flat, kernels)
     cuttable = set(flat.sources.values())
     while len(ranks(links)) < len(links):
         found = circle(links)

@@ -50,7 +50,7 @@ def weighed(flat: FlatModel, parts: Iterable[Part]) -> list[Part]:
 
 
 def _found(flat: FlatModel) -> tuple[list[Part], list[Fault]]:
-    bearing = [instance for instance in flat.instances if instance.type.answers.bears]
+    bearing = flat.those(lambda kind: kind.answers.bears)
     if not bearing:
         return [], []
     pieces = _pieces(flat)

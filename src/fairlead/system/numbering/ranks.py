@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from fairlead.component.assembly import PortRef
+from fairlead.component.assembly import PortRef, asked_by_two
 from fairlead.component.keys import INPUT, PORT, key
 from fairlead.errors import Fault, ModelError
 from fairlead.flatten.flat_model import FlatModel
@@ -12,10 +12,12 @@ from fairlead.flatten.graph import ranks
 from fairlead.kernels.kernel import Kernel
 from fairlead.kernels.structure import Structure
 
+Links = dict[str, dict[str, dict[PortRef, None]]]
+"""For every instance that gives a signal those whose signals its own decide at once, and by which outputs."""
 
-def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
+
+def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel], followers: Links) -> dict[str, int]:
     """Rank of every instance that gives a signal. Raises ModelError for a loop that `loops.py` does not cut."""
-    followers = followed(flat, kernels)
     _refuse_unfit(flat, kernels, _needed(flat))
     known = ranks(followers)
     if len(known) == len(followers):
@@ -26,18 +28,26 @@ def signal_ranks(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, int]:
     raise ModelError([Fault(where, what, "Break it with a State or a sampled component.")])
 
 
-def followed(flat: FlatModel, kernels: dict[str, Kernel]) -> dict[str, dict[str, dict[PortRef, None]]]:
-    """For every instance that gives a signal those whose signals its own decide at once, and by which outputs."""
-    followers: dict[str, dict[str, dict[PortRef, None]]] = {}
+def followed(flat: FlatModel, kernels: dict[str, Kernel]) -> Links:
+    """Who follows whom in a model."""
+    followers: Links = {}
     deciding: dict[tuple[int, str], list[tuple[str, str]]] = {}
     given = _prescribing(flat)
+    sources = asked_by_two(flat.sources)
     for output in _needed(flat):
-        followers.setdefault(output.instance, {})
-        s = kernels[output.instance].structure
-        if (id(s), output.port) not in deciding:  # once a class: a long line has thousands of instances
-            deciding[id(s), output.port] = _deciding(s, output.port)
-        for source in _read_by(flat, given, output, deciding[id(s), output.port]):
-            followers.setdefault(source.instance, {}).setdefault(output.instance, {})[source] = None
+        path, port = output
+        followers.setdefault(path, {})
+        s = kernels[path].structure
+        if (id(s), port) not in deciding:  # once a class: a long line has thousands of instances
+            deciding[id(s), port] = _deciding(s, port)
+        for kind, name in deciding[id(s), port]:
+            if kind == INPUT:
+                source = sources.get((path, name))
+                read = [] if source is None else [source]
+            else:  # a motion that an instance gives itself is no loop
+                read = [one for one in given.get((path, name), ()) if one.instance != path]
+            for one in read:
+                followers.setdefault(one.instance, {}).setdefault(path, {})[one] = None
     return followers
 
 
@@ -60,6 +70,8 @@ def _needed(flat: FlatModel) -> dict[PortRef, None]:
 def _refuse_unfit(flat: FlatModel, kernels: dict[str, Kernel], needed: Iterable[PortRef]) -> None:
     """Some outputs can be recorded but not fed to a law: they come too late, or their derivative jumps."""
     faults = []
+    if not any({id(one): one.structure.unfit for one in kernels.values()}.values()):
+        return
     unfit = {one: why for one in needed if (why := kernels[one.instance].structure.unfit.get(one.port))}
     for output, why in sorted(unfit.items(), key=lambda item: str(item[0])):
         readers = [str(target) for target, source in flat.sources.items() if source == output]
@@ -77,24 +89,9 @@ def _deciding(structure: Structure, output: str) -> list[tuple[str, str]]:
     return list(dict.fromkeys((one.kind, one.name) for one in keys if one.kind in (INPUT, PORT)))
 
 
-def _read_by(
-    flat: FlatModel, given: Mapping[PortRef, list[PortRef]], output: PortRef, deciding: list[tuple[str, str]]
-) -> list[PortRef]:
-    """Outputs whose values decide this one, through the signal inputs and prescribed motions that do."""
-    found = []
-    for kind, name in deciding:
-        ref = PortRef(output.instance, name)
-        if kind == INPUT:
-            source = flat.sources.get(ref)
-            found += [source] if source else []
-        else:  # a motion that an instance gives itself is no loop
-            found += [source for source in given.get(ref, ()) if source.instance != output.instance]
-    return found
-
-
-def _prescribing(flat: FlatModel) -> dict[PortRef, list[PortRef]]:
+def _prescribing(flat: FlatModel) -> dict[tuple[str, str], list[PortRef]]:
     """By port whose motion is prescribed, the outputs that say how it moves."""
-    found: dict[PortRef, list[PortRef]] = {}
+    found: dict[tuple[str, str], list[PortRef]] = {}
     for group in flat.groups:
         if group.prescribed is not None and group.prescribed.outputs is not None:
             given = [PortRef(group.prescribed.by.instance, name) for name in group.prescribed.outputs]

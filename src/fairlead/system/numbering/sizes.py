@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairlead.component.assembly import Instance, PortRef
+from fairlead.component.assembly import Instance
 from fairlead.component.declare import TRANSLATIONAL
 from fairlead.errors import Fault, shown
 from fairlead.flatten.flat_model import FlatModel
@@ -48,16 +48,17 @@ class OfContacts:
 def of_contacts(flat: FlatModel, numbering: Numbering) -> OfContacts:
     """Each in the unit of its unknown, which may turn where the contact slides."""
     found = OfContacts(*(np.full(numbering.n, np.inf) for _ in range(3)))
-    known: dict[int, tuple[float, float, float]] = {}
+    known: dict[int, tuple[float, float, float] | None] = {}
     for instance in flat.instances:
         key = id(instance.values)  # nodes of a line share theirs
         if key not in known:
-            known[key] = _own_sizes(instance)
-        creep, changes, presliding = known[key]
-        if min(known[key]) == np.inf:
+            sizes_of = _own_sizes(instance)
+            known[key] = None if min(sizes_of) == np.inf else sizes_of
+        if (own := known[key]) is None:
             continue
+        creep, changes, presliding = own
         for port in _slipping(instance):
-            index, ratio, _ = flat.place(PortRef(instance.path, port))
+            index, ratio, _ = flat.places[instance.path, port]
             at = ((found.creep, creep, numbering.rate), (found.changes, changes, numbering.rate),
                   (found.presliding, presliding, numbering.position))  # fmt: skip
             for sizes, size, where in at:

@@ -119,7 +119,7 @@ def number(flat: FlatModel, structures: Mapping[str, Structure], *, energy: bool
                 _number_acceleration(made, index, group)
         else:
             made.reactions[index] = len(made.reactions)
-    for instance in flat.instances:
+    for instance in flat.those(lambda kind: kind.declaration.states or kind.declaration.unknowns):
         _number_own(made, instance)
     _number_parts(made, flat)
     made.circles = circles(flat, structures)
@@ -211,12 +211,8 @@ def part_rows(flat: FlatModel, numbering: Numbering) -> list[PartRow]:
 
 def groups_kept(flat: FlatModel, structures: Mapping[str, Structure]) -> set[int]:
     """Groups of the ports that relations of positions read."""
-    return {
-        flat.place(PortRef(instance.path, port))[0]
-        for instance in flat.instances
-        for ports in structures[instance.path].positions.values()
-        for port in ports
-    }
+    keeping = ((path, s) for path, s in structures.items() if s.positions)
+    return {flat.places[path, port][0] for path, s in keeping for ports in s.positions.values() for port in ports}
 
 
 def _number_own(made: Numbering, instance: Instance) -> None:
@@ -241,11 +237,8 @@ def groups_with_rate_forces(flat: FlatModel, structures: Mapping[str, Structure]
     """Groups on which some law's flow depends on the rate: a node without mass keeps its rate then."""
     distinct = {id(s): s for s in structures.values()}  # instances of a class share theirs
     ports = {key: _ports_with_rate_forces(s) for key, s in distinct.items()}
-    return {
-        flat.place(PortRef(instance.path, port))[0]
-        for instance in flat.instances
-        for port in ports[id(structures[instance.path])]
-    }
+    places = flat.places
+    return {places[path, port][0] for path, s in structures.items() for port in ports[id(s)]}
 
 
 def _ports_with_rate_forces(structure: Structure) -> set[str]:

@@ -28,7 +28,8 @@ def overridden(system: System) -> list[Fault]:
     """Start values that a given motion overrides by others, with both ends and both values."""
     flat = system.flat
     driven = {k: one for k, one in enumerate(flat.groups) if one.prescribed is not None and one.prescribed.outputs}
-    said = [one for instance in flat.instances for one in _said(flat, instance, driven)] if driven else []
+    telling = flat.those(lambda kind: kind.answers.start is not None) if driven else []
+    said = [one for instance in telling for one in _said(flat, instance, driven)]
     if not said:
         return []
     signals = _signals(system)

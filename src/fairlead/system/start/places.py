@@ -44,6 +44,8 @@ def unfit(flat: FlatModel, structures: Mapping[str, Structure]) -> list[Fault]:
     """Relations of positions between ports of which one has no mass, or none may move."""
     faults = []
     for part in flat.instances:
+        if not structures[part.path].positions:
+            continue
         ports = dict.fromkeys(port for ports in structures[part.path].positions.values() for port in ports)
         free = [port for port in ports if flat.groups[flat.place(PortRef(part.path, port))[0]].free]
         light = [port for port in free if flat.groups[flat.place(PortRef(part.path, port))[0]].mass == 0]
