@@ -196,8 +196,7 @@ def as_shown(m, at_y, before):
 @compiled
 def tolerance_where(own, tolerance):
     """How far a guard that is `own` may be shown above zero: where it is at its limit, it stays at it."""
-    at_limit = AT_LIMIT * tolerance
-    return at_limit if abs(own) <= at_limit else tolerance
+    return AT_LIMIT * tolerance if abs(own) <= AT_LIMIT * tolerance else tolerance
 
 
 @compiled
