@@ -185,34 +185,3 @@ def test_a_creep_whose_load_comes_to_its_limit_and_no_further_is_not_shown_above
     assert np.abs(friction).max() > 0.99 * limit
     before = result.t < 0.24
     assert friction[before] == pytest.approx(load[before], abs=0.05 * limit)
-
-
-CHAIN = """
-    components:
-      left: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
-      middle: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
-      right: {type: Mass, mass: 1 kg, position: 0 m, velocity: 0 m/s}
-      first: {type: Contact, normal_force: LIMIT N, curve: 1}
-      second: {type: Contact, normal_force: LIMIT N, curve: 1}
-      push: {type: ForceSource, force: {sine: {amplitude: PUSH N, frequency: 1 Hz}}}
-      pull: {type: ForceSource, force: {sine: {amplitude: PULL N, frequency: 1 Hz}}}
-    connections:
-      - [left.flange, first.a]
-      - [first.b, middle.flange, second.a, push.flange]
-      - [second.b, right.flange, pull.flange]
-    friction: {method: binding, creep: 1e-5 m/s}
-    run: {stop: 1 s, accuracy: 1e-5}
-    """
-
-
-@pytest.mark.parametrize("engine", ["stepping", "rodas"])
-@pytest.mark.parametrize("limit", [1, 20])
-def test_a_contact_that_begins_to_creep_beside_one_that_does_is_not_shown_above_its_limit(
-    limit, engine, scene, tmp_path
-):
-    # The pull lets the right body slide off; as it turns, the slip comes to zero while the other pad creeps.
-    text = CHAIN.replace("LIMIT", str(limit)).replace("PUSH", str(2 * limit)).replace("PULL", str(5 * limit))
-    result = scene(text).run(out=tmp_path / "o", engine=engine, max_steps=50000)
-    at_events = result.side != 0
-    for pad in ("first", "second"):
-        assert np.abs(result[f"{pad}.friction"][at_events]).max() <= limit * (1 + 1e-6)

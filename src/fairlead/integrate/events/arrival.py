@@ -161,9 +161,7 @@ def as_shown(m, at_y, before):
     """Address of y as it is recorded at an event, `before` its switches or after them.
 
     Speeds that follow a stiff law are shown where they balance, but never so that a guard rises by it, nor off the one
-    that fired. A guard that is at its limit stays there: beside others in newtons a slip has a tolerance that a contact
-    which begins to creep would show as a ten-thousandth of its limit, and beyond that.
-    What has no inertia is in balance after a settlement; before, it is shown as the end of the piece is.
+    that fired. What has no inertia is in balance after a settlement; before, it is shown as the end of the piece is.
     """
     point, guards, recorder = m.point, m.events.guards, m.recorder
     if recorder.shown_apart == 0:
@@ -174,29 +172,20 @@ def as_shown(m, at_y, before):
     differential = indices(point.at_differential, n)
     for k in range(n):
         shown[k] = y[k] + apart[k] if differential[k] == 1 else y[k]
-    evaluate_guards(m.problem, m.run, guards, point.t, at_y, guards.at_g_left)
     evaluate_guards(m.problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    own, g = reals(guards.at_g_left, guards.n_guards), reals(guards.at_g_probe, guards.n_guards)
-    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)
+    g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
     rises = False
     for i in range(guards.n_guards):
-        rises = rises or g[i] > tolerance_where(own[i], tolerance[i])
+        rises = rises or g[i] > tolerance[i]
     fired = indices(guards.at_fired, guards.n_guards)
     for k in range(guards.n_fired):
-        i = fired[k]
-        rises = rises or abs(g[i]) > tolerance_where(own[i], tolerance[i])
+        rises = rises or abs(g[fired[k]]) > tolerance[fired[k]]
     for k in range(n):
         if differential[k] == 0 and stiff[k] == 1 and before:
             shown[k] = piece[k] + apart[k]
         elif rises:
             shown[k] = y[k]
     return point.at_y_probe
-
-
-@compiled
-def tolerance_where(own, tolerance):
-    """How far a guard that is `own` may be shown above zero: where it is at its limit, it stays at it."""
-    return AT_LIMIT * tolerance if abs(own) <= AT_LIMIT * tolerance else tolerance
 
 
 @compiled
