@@ -185,3 +185,27 @@ def test_a_creep_whose_load_comes_to_its_limit_and_no_further_is_not_shown_above
     assert np.abs(friction).max() > 0.99 * limit
     before = result.t < 0.24
     assert friction[before] == pytest.approx(load[before], abs=0.05 * limit)
+
+
+SHAKEN = """
+    components:
+      table: {type: MotionSource, position: {sine: {amplitude: AMPLITUDE m, frequency: RATE Hz, phase: 90 deg}}}
+      block: {type: Mass, mass: MASS kg, position: AMPLITUDE m, velocity: 0 m/s}
+      pad: {type: Contact, normal_force: LOAD N, curve: 0.5}
+    connections: [[table.flange, pad.a], [pad.b, block.flange]]
+    friction: {method: lugre}
+    run: {stop: 3 s, accuracy: 1e-5}
+    """
+
+
+@pytest.mark.parametrize("accuracy", [1e-5, 1e-6, 1e-7])
+@pytest.mark.parametrize(("mass", "rate"), [(2, 2), (0.1, 5), (40, 1)])
+def test_what_carries_a_body_by_bristles_gives_what_body_and_bristles_take(mass, rate, accuracy, scene, tmp_path):
+    # The table takes 99/100 of the speed-up at which the block would slide; its bristles bend and creep, to and fro.
+    amplitude = 0.99 * 5 / (2 * np.pi * rate) ** 2
+    text = SHAKEN.replace("MASS", str(mass)).replace("LOAD", str(10 * mass)).replace("RATE", str(rate))
+    text = text.replace("AMPLITUDE", repr(amplitude))
+    result = scene(text, **{"run.accuracy": repr(accuracy)}).run(out=tmp_path / "o", engine="stepping")
+    energy = result.run["energy"]
+    missing = abs(energy["stored_change"] + energy["dissipated"] - energy["supplied"])
+    assert missing < 0.1 * accuracy * max(energy["throughput"], 0.1)

@@ -116,7 +116,11 @@ def take_theta_step(m, h):
 
 @compiled
 def begin_step(m, h):
-    """Guess the end and the zones, and forget what was found in the step before."""
+    """Guess the end and the zones, and forget what was found in the step before.
+
+    J too, where laws are not linear and the step ends at its switch: the end of order three is solved with the factors
+    of the step (third_order.py), and by those of an earlier one it would be off by the change of J, to first order.
+    """
     stepping, exchange = m.stepping, m.stepping.exchange
     predict(m.point, stepping.rule, h)
     forget_switches(stepping.contacts)
@@ -124,6 +128,8 @@ def begin_step(m, h):
     begin_set(m.run, m.events.settling, stepping)
     predict_fronts(m, h)
     exchange.assumed, exchange.caught_by_row, stepping.rule.searched = 0, 0, 0
+    if m.problem.linear == 0 and stepping.rule.locates == 1:
+        forget_jacobian(stepping.rule)
 
 
 @compiled
