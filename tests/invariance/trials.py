@@ -21,8 +21,9 @@ from tests.invariance.settings import lacking, settings
 
 ROOT = pathlib.Path(__file__).parents[2]
 
-ROUNDING, MOVES = 1e-14, range(1, 5)
-"""What rounding comes to in sums of some ten terms, as a share of an unknown; seeds of the ways to move a start."""
+ROUNDING, MOVES = 1e-14, range(1, 13)
+"""What rounding comes to in sums of some ten terms, as a share of an unknown; seeds of the ways to move a start. Of a
+route that is chaotic from 0.48 s on, none of the first four may show it."""
 
 
 @dataclass(frozen=True)
