@@ -24,6 +24,8 @@ import time
 import warnings
 from typing import Any
 
+from outcomes import watched
+
 HERE = pathlib.Path(__file__).resolve()
 SCENES: dict[str, tuple[str, dict[str, str]]] = {
     "belt": ("belt", {}),
@@ -44,23 +46,10 @@ def run(scene: str) -> dict[str, Any]:
     """One scene by the Python that runs this: counters, CPU of the loop and of the whole call, peak memory."""
     import fairlead
 
-    try:
-        import fairlead.running as runner
-    except ImportError:  # what it is compared with may be older
-        import fairlead.run as runner
-
-    kept: list[Any] = []
-    integrate = runner.integrate
-
-    def watched(*given: Any, **named: Any) -> Any:
-        kept.append(integrate(*given, **named))
-        return kept[-1]
-
-    runner.integrate = watched
     name, settings = SCENES[scene]
     model = fairlead.load(name, set=settings)
     calls: list[float] = []
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), watched() as kept:
         warnings.simplefilter("ignore")
         os.chdir(folder)  # a checkout that cannot keep a run in memory writes it there
         while len(calls) < (REPEATS if not calls or calls[-1] < SHORT else 2):

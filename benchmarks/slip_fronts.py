@@ -20,6 +20,8 @@ import tempfile
 import warnings
 from typing import Any
 
+from outcomes import watched
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FILE = pathlib.Path("src/fairlead/integrate/stepping/slip_fronts.py")
 AS_IT_IS, NONE = "all", "none"
@@ -40,19 +42,10 @@ def play(scene: str) -> dict[str, Any]:
     import stiction_rows
 
     import fairlead
-    import fairlead.running as runner
 
-    kept: list[Any] = []
-    integrate = runner.integrate
-
-    def watched(*given: Any, **named: Any) -> Any:
-        kept.append(integrate(*given, **named))
-        return kept[-1]
-
-    runner.integrate = watched
     kind, size = scene.split("_")
     settings = {"run.engine": "stepping"}
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), watched() as kept:
         warnings.simplefilter("ignore")
         if kind == "blocks":
             model, settings["blocks"] = "hundred_blocks", size

@@ -18,9 +18,9 @@ from typing import Any
 
 import machine  # noqa: F401  # first: it settles the number of threads before numpy is there
 import numpy as np
+from outcomes import watched
 
 import fairlead
-import fairlead.running as runner
 
 LEVELS = (1.0, 1.3)
 
@@ -48,21 +48,10 @@ def netlist(blocks: int, level: float, speed: float, stop: float) -> str:
 
 def run(path: pathlib.Path, engine: str, accuracy: float) -> tuple[np.ndarray, Any]:
     """Positions on the grid, and the outcome of the engine."""
-    kept: list[Any] = []
-    integrate = runner.integrate
-
-    def watched(*given: Any, **named: Any) -> Any:
-        kept.append(integrate(*given, **named))
-        return kept[-1]
-
-    runner.integrate = watched
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            model = fairlead.load(str(path), set={"run.engine": engine, "run.accuracy": str(accuracy)})
-            result = model.run(out=None)
-    finally:
-        runner.integrate = integrate
+    with warnings.catch_warnings(), watched() as kept:
+        warnings.simplefilter("ignore")
+        model = fairlead.load(str(path), set={"run.engine": engine, "run.accuracy": str(accuracy)})
+        result = model.run(out=None)
     times = np.arange(0.0, kept[-1].t, 0.02)
     return np.stack([result.at(name, times) for name in result.match("b*.x")]), kept[-1]
 

@@ -6,6 +6,8 @@ friction falls from 6 to 4 N. A thousandth more does that, and the closed form s
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 ENGINES = ("rodas", "stepping", "ida")
@@ -102,3 +104,46 @@ def test_a_clutch_carries_its_limit(simulate, engine) -> None:
         run: {stop: 3 s, accuracy: 1e-5}
     """, **{"run.engine": engine})  # fmt: skip
     assert abs(result["rotor.angle"]).max() < 1e-9
+
+
+BESIDE = """
+    components:
+      ground: {{type: Ground}}
+      near: {{type: Mass, mass: 1 kg}}
+      far: {{type: Mass, mass: 1 kg}}
+      pad: {{type: Contact, normal_force: 10 N, curve: {{curve: coulomb, stiction: 0.6, coulomb: 0.4}}}}
+      shoe: {{type: Contact, normal_force: 10 N, curve: {{curve: coulomb, stiction: 0.6, coulomb: 0.4}}}}
+      sway: {{type: ForceSource, force: {{sine: {{amplitude: 6 N, frequency: 0.5 Hz}}}}}}
+      push: {{type: ForceSource, force: {{{push}}}}}
+    connections:
+      - [near.flange, pad.b, sway.flange]
+      - [far.flange, shoe.b, push.flange]
+      - [ground.flange, pad.a, shoe.a]
+    run: {{stop: {stop}, accuracy: {accuracy}}}
+"""
+
+
+@pytest.mark.parametrize("after", [0.0, 0.02, 0.1])
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4", "1e-5"])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_load_that_comes_to_its_limit_hides_no_other_that_goes_beyond(simulate, engine, accuracy, after) -> None:
+    """The sine tops out at its limit at 0.5 s; the ramp beside it passes its own then, or soon after."""
+    push = f"ramp: {{to: 12 N, over: 1 s, start: {after} s}}"
+    result = simulate(BESIDE.format(push=push, accuracy=accuracy, stop="1 s"), **{"run.engine": engine})
+    assert abs(result["near.x"]).max() < 1e-9
+    assert next(iter(result.events)).t == pytest.approx(0.5 + after, abs=2e-5)
+    assert {event.component for event in result.events} == {"shoe"}
+
+
+@pytest.mark.parametrize(("frequency", "amplitude"), [(0.45, 6.06), (0.48, 6.006), (0.52, 6.006)])
+@pytest.mark.parametrize("accuracy", [1e-4, 1e-5, 1e-6])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_load_that_tops_out_at_its_limit_hides_no_other_top(simulate, engine, accuracy, frequency, amplitude) -> None:
+    """Two sines in one step: the one at its limit is held, the other passes it for 0.03 to 0.09 s and lets go."""
+    push = f"sine: {{amplitude: {amplitude} N, frequency: {frequency} Hz}}"
+    result = simulate(BESIDE.format(push=push, accuracy=accuracy, stop="0.9 s"), **{"run.engine": engine})
+    exact = math.asin(6 / amplitude) / (2 * math.pi * frequency)
+    slope = amplitude * 2 * math.pi * frequency * math.sqrt(1 - (6 / amplitude) ** 2)
+    assert abs(result["near.x"]).max() < 1e-9
+    assert next(iter(result.events)).t == pytest.approx(exact, abs=10 * accuracy * 6 / slope)
+    assert {event.component for event in result.events} == {"shoe"}

@@ -149,13 +149,15 @@ def is_asked_for(guards, k, x):
 
 @compiled
 def floor_of(guards, i):
-    """What guard i has to reach: zero; its tolerance, if it begins at zero within that.
+    """What guard i has to reach: zero; its tolerance, if it is the limit of a load or begins at zero within that.
 
-    Just switched, a guard is at its limit within rounding: there, only a bump that leaves its tolerance is a crossing
-    and not the error of the interpolant.
+    A load that tops out at its limit is held (limits.py), and hides nothing that follows it in the step. Just switched,
+    a guard is at its limit within rounding: there, only a bump that leaves its tolerance is a crossing and not the
+    error of the interpolant.
     """
-    tolerance = reals(guards.at_guard_tolerance, guards.n_guards)[i]
-    return tolerance if reals(guards.at_g, guards.n_guards)[i] >= -tolerance else 0.0
+    ng = guards.n_guards
+    tolerance, limit = reals(guards.at_guard_tolerance, ng), indices(guards.at_limit_guard, ng)
+    return tolerance[i] if limit[i] == 1 or reals(guards.at_g, ng)[i] >= -tolerance[i] else 0.0
 
 
 @compiled
