@@ -147,3 +147,24 @@ def test_a_load_that_tops_out_at_its_limit_hides_no_other_top(simulate, engine, 
     assert abs(result["near.x"]).max() < 1e-9
     assert next(iter(result.events)).t == pytest.approx(exact, abs=10 * accuracy * 6 / slope)
     assert {event.component for event in result.events} == {"shoe"}
+
+
+@pytest.mark.parametrize(("contacts", "apart", "frequency"), [(1, 0.0, 0.5), (1, 0.0, 0.3777), (3, 0.11, 0.21)])
+@pytest.mark.parametrize("accuracy", ["1e-3", "1e-4", "1e-6"])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_loads_that_come_to_their_limits_again_and_again_are_held(
+    simulate, engine, accuracy, contacts, apart, frequency
+) -> None:
+    """Each sine tops out at its limit twice a period, for 30 s: also where a step ends at a top, or many are near."""
+    parts = ["ground: {type: Ground}"]
+    joins = [f"[ground.flange, {', '.join(f'pad{i}.a' for i in range(contacts))}]"]
+    for i in range(contacts):
+        force = f"sine: {{amplitude: 6 N, frequency: {frequency + apart * i} Hz}}"
+        parts += [
+            f"block{i}: {{type: Mass, mass: 1 kg}}", f"push{i}: {{type: ForceSource, force: {{{force}}}}}",
+            f"pad{i}: {{type: Contact, normal_force: 10 N, curve: {{curve: coulomb, stiction: 0.6, coulomb: 0.4}}}}",
+        ]  # fmt: skip
+        joins.append(f"[block{i}.flange, pad{i}.b, push{i}.flange]")
+    netlist = "components: {{{}}}\nconnections: [{}]\nrun: {{stop: 30 s, accuracy: {}}}"
+    result = simulate(netlist.format(", ".join(parts), ", ".join(joins), accuracy), **{"run.engine": engine})
+    assert not result.events

@@ -94,6 +94,7 @@ def arrive(m, by_equations):
         remember_shown(point, recorder, at_shown)
     point.t = run.t_piece
     run.judged = 0
+    run.dropped = run.dropped if run.crossed == 1 else 0
     copy(reals(point.at_y_piece, problem.n), reals(point.at_y, problem.n))
     m.linear.matrices.jacobian_fresh = 0
     kept = problem.n_accelerated > 0 or off_place(problem, point) or (problem.n_balanced > 0 and run.crossed == 1)
@@ -217,8 +218,7 @@ def judge_again(problem, run, point, events):
     guards, settling = events.guards, events.settling
     settling.least_look = 0.0
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
-    if run.crossed == 0 or run.dropped >= MOST_DROPPED:
-        run.dropped = 0
+    if run.crossed == 0:
         return
     g, tolerance = reals(guards.at_g, problem.n_guards), reals(guards.at_guard_tolerance, problem.n_guards)
     fired, kept, later = indices(guards.at_fired, problem.n_guards), 0, reals(guards.at_g_probe, problem.n_guards)
@@ -230,7 +230,7 @@ def judge_again(problem, run, point, events):
     evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe if d > 0.0 else point.at_y, guards.at_g_probe)
     for k in range(guards.n_fired):
         i = fired[k]
-        near = corner[i] == 1 or g[i] >= -AT_LIMIT * tolerance[i]
+        near = run.dropped >= MOST_DROPPED or corner[i] == 1 or g[i] >= -AT_LIMIT * tolerance[i]
         if not near and FARTHER * (later[i] - g[i]) >= EARLY * -g[i]:
             near = True
             settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (later[i] - g[i]))

@@ -1,10 +1,10 @@
 """A trial step that is given up, in every engine: it is taken again with another length, or its start is settled.
 
 Companion rule. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
-zones at the start were wrong, so the start is settled. Where it was settled already and all such guards fall by the
-slopes there, the step is too rough at its start, and a much shorter one is tried. So it is where one neither falls nor
-rises by them, but is below zero at the end: the interpolant of a long step has a body that begins to leave a stop by
-t^3 enter it by more than a guard of places is known to.
+zones at the start were wrong, so the start is settled, by what its guards are there. Where it was settled already and
+all such guards fall by the slopes there, the step is too rough at its start, and a much shorter one is tried. So it is
+where one neither falls nor rises by them, but is below zero at the end: the interpolant of a long step has a body that
+begins to leave a stop by t^3 enter it by more than a guard of places is known to.
 """
 
 from __future__ import annotations
@@ -54,7 +54,14 @@ def mend_start(m, h):
     """Follow the companion rule for the step h, of which the guards in `fired` were above zero from the start."""
     run, point = m.run, m.point
     run.rejected_companion += 1
-    doubtful = run.judged == 1 and run.adaptive == 1 and DOUBT * h >= smallest_step(run, point)
-    if doubtful and fall_from_start(m.problem, run, point, m.events):
+    if run.adaptive == 1 and DOUBT * h >= smallest_step(run, point) and is_doubtful(m):
         return take_much_shorter(run, m.events.guards, h)
+    if run.judged == 0:  # not known by the equations yet: a load that tops out at its limit here is held
+        m.events.guards.n_fired = 0
     return settle_at_start(m)
+
+
+@compiled
+def is_doubtful(m):
+    """True if the start of the step was settled, and by its slopes the guards in `fired` do not rise there."""
+    return m.run.judged == 1 and fall_from_start(m.problem, m.run, m.point, m.events)

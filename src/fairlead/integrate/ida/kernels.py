@@ -12,7 +12,7 @@ from math import inf
 
 from fairlead.integrate.codes import RECORD, STEP_FLOOR
 from fairlead.integrate.events.crossing import COMPANION, NONE, find_first_crossing, guards_at
-from fairlead.integrate.events.given_up import settle_at_start
+from fairlead.integrate.events.given_up import is_doubtful, mend_start
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
@@ -89,8 +89,9 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
         return 1
     found = find_first_crossing(m, h)
     if found == COMPANION:
-        run.rejected_companion += 1
-        settle_at_start(m)
+        if h > 2.0 * floor and is_doubtful(m):
+            return 1
+        mend_start(m, 0.0)
         return 0
     if found == NONE and n_rooted > 0:
         copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))
@@ -127,8 +128,9 @@ def look_beyond(m, h, rest):
     """How high the guards that were located at the end of the step h rise after it, into `g_late`.
 
     Along the parabola through the last half of the step, and for the time `rest` until the next time event: there a
-    load may turn. What is at a limit of what holds and goes no further is taken out of `fired`: a tie holds. What is
-    within its tolerance of a limit and goes further is put in: of two that reach it at once IDA finds one.
+    load may turn, and `g_end` is what it has come to by then. What is at a limit of what holds and goes no further is
+    taken out of `fired`: a tie holds. What is within its tolerance of a limit and goes further is put in: of two that
+    reach it at once IDA finds one.
     """
     guards, fired = m.events.guards, indices(m.events.guards.at_fired, m.events.guards.n_guards)
     ng = guards.n_guards
@@ -150,6 +152,7 @@ def look_beyond(m, h, rest):
         curve = (end[i] - 2.0 * near[i] + half[i]) / 0.0625
         top = min(s, -slope / curve) if curve < 0.0 else s
         height[i] = max(end[i], end[i] + slope * top + 0.5 * curve * top * top)
+        end[i] += slope * s + 0.5 * curve * s * s
         if limit[i] == 0 or height[i] > tolerance[i]:
             fired[found] = i
             found += 1
