@@ -233,7 +233,7 @@ def next_place(a, ga, x, gx, b, gb, floor):
     # The parabola through the points rises above the middle one by slope^2/(4 curve); what it does not see, no more.
     if gx + 0.5 * slope * slope / curve < floor:
         return 1.0
-    new = 0.5 * (p * (a + x) - q * (x + b)) / (p - q)
+    new = 0.5 * (p * (x + b) - q * (a + x)) / (p - q)
     new = min(max(new, a + 0.1 * (x - a)), b - 0.1 * (b - x))
     if abs(new - x) < 1e-3 * (b - a):
         new = x + (1e-2 * (b - x) if b - x > x - a else -1e-2 * (x - a))
