@@ -124,7 +124,7 @@ def searched(find, guards, *arguments, least=0):
 
 
 def hump(centre, height, lean):
-    """A guard with its only top inside the step, steeper on one side; a quartic, of which the search knows the cubic."""
+    """A guard with its only top inside the step, steeper on one side; a quartic, which no cubic is."""
     return lambda s: height - 3.0 * (s - centre) ** 2 * (1.0 + lean * (s - centre) + 0.5 * (s - centre) ** 2)
 
 
