@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import hashlib
+import importlib
 import importlib.metadata
 import os
 from collections.abc import Callable
@@ -15,6 +16,7 @@ import numpy as np
 
 import fairlead.integrate
 from fairlead import native
+from fairlead.integrate.codes import DONE
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.memory.layout import CHECK, INDICES, VECTORS
 from fairlead.processor import tell_numba
@@ -52,6 +54,18 @@ def entry(function: Callable[..., Any], owners: tuple[str, ...], kinds: str = ""
         return made(at.address, *(a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments))
 
     return call
+
+
+@functools.cache
+def room(name: str, owners: tuple[str, ...], kinds: str = "", result: str = "v") -> Any:
+    """`entry` of a function of the integrator by its name, such as "point.illinois.shares_of_ends"."""
+    module, _, function = name.rpartition(".")
+    return entry(getattr(importlib.import_module(f"fairlead.integrate.{module}"), function), owners, kinds, result)
+
+
+def factorise(at: Memory, scale: float) -> None:
+    """Factorise scale M - J."""
+    assert room("linear.systems.factorise_step", ("linear",), "d", "i")(at, scale) == DONE
 
 
 def machine_code(name: str, kinds: str, result: str, function: Callable[[], Callable[..., Any]]) -> Any:

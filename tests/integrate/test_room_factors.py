@@ -10,20 +10,12 @@ from scipy import linalg
 
 from fairlead.integrate.codes import DONE, INACCURATE
 from fairlead.integrate.linear.condensing import columns_of
-from tests.integrate.rooms import entry, memory
+from tests.integrate.rooms import entry, memory, room
 from tests.integrate.test_linear import mechanical_network, memory_for, planned
 
 
-@functools.cache
-def room(module, name, owners="linear", kinds="", result="v"):
-    import importlib
-
-    function = getattr(importlib.import_module(f"fairlead.integrate.linear.{module}"), name)
-    return entry(function, (owners,), kinds, result)
-
-
 def factorise():
-    return room("condensed", "factorise_core", kinds="db", result="i")
+    return room("linear.condensed.factorise_core", ("linear",), "db", "i")
 
 
 @functools.cache
@@ -90,7 +82,7 @@ def test_rows_are_scaled_by_their_largest_entry_in_units_of_the_weights(seed):
     units = network.at.array["column_scale"]
     units[:] = 10.0 ** network.rng.uniform(-3, 3, len(units))
     assert factorise()(network.at, 1e3, False) == DONE
-    room("sparse", "scale_rows", "linear.factors")(network.at)
+    room("linear.sparse.scale_rows", ("linear.factors",))(network.at)
     A = np.abs(network.part("matrix")) * units[network.at.array["column_order"]]
     np.testing.assert_allclose(network.at.array["row_scale"][: len(A)], 1.0 / A.max(axis=1), rtol=1e-15)
 
@@ -108,7 +100,7 @@ def test_who_uses_a_column_is_who_is_reached_along_the_upper_factor(seed):
     at.array["dirty"][:] = 0
     at.array["dirty"][begin] = 1
     at.array["waiting"][0] = begin
-    room("sparse", "mark_users", "linear.factors", "i")(at, 1)
+    room("linear.sparse.mark_users", ("linear.factors",), "i")(at, 1)
     np.testing.assert_array_equal(at.array["dirty"][:n] == 1, reached)
 
 
@@ -141,7 +133,7 @@ def test_the_backward_error_is_the_largest_scaled_residual_over_the_largest_scal
     at.array["core_x"][:], at.array["core_b"][:] = x, b
     left = b - A @ x
     wanted = np.max(scale * np.abs(left)) / np.max(scale * (np.abs(b) + np.abs(A) @ np.abs(x)))
-    assert room("sparse", "backward_error", result="d")(at) == pytest.approx(wanted, rel=1e-6)
+    assert room("linear.sparse.backward_error", ("linear",), "", "d")(at) == pytest.approx(wanted, rel=1e-6)
     np.testing.assert_allclose(at.array["core_residual"], left, atol=1e-12 * np.max(np.abs(A) @ np.abs(x)))
 
 
@@ -154,7 +146,7 @@ def test_a_solution_without_its_quadratures_has_all_else_to_the_bit(seed):
     found = []
     for quadratures in (True, False):
         x = b.copy()
-        room("condensed", "solve_core", kinds="ibd", result="d")(at, x, quadratures, 0.0)
+        room("linear.condensed.solve_core", ("linear",), "ibd", "d")(at, x, quadratures, 0.0)
         found.append(x)
     motion = ~network.problem.quadrature
     W = (1e3 * network.M - network.J)[np.ix_(motion, motion)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import functools
-import importlib
 
 import numpy as np
 import pytest
@@ -12,17 +11,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from fairlead.integrate.linear.condensing import columns_of
-from tests.integrate.rooms import entry, fields, memory
+from tests.integrate.rooms import fields, memory, room
 from tests.integrate.test_linear import pattern_of
 
 LIMITED, UNLIMITED = 1, 2
 SHORT = 1e-12
-
-
-@functools.cache
-def room(module, name, owners, kinds="", result="v"):
-    function = getattr(importlib.import_module(f"fairlead.integrate.events.{module}"), name)
-    return entry(function, owners, kinds, result)
 
 
 def along(name, matrix):
@@ -43,8 +36,8 @@ def test_an_impulse_acts_as_a_force_for_a_billionth_of_a_thousandth_of_the_time_
         differential=[0, 0, 0, 0, 0, 1], takes_impulse=[UNLIMITED, LIMITED, UNLIMITED, 0, 0, 0],
         circle=[0, 1, 0, 1, 2, 0], least_share=np.zeros(n),
     )  # fmt: skip
-    assert room("impulse_load", "least_impulse", ("problem", "point"), "", "d")(at) == pytest.approx(5e-10)
-    room("impulse_load", "load", ("problem", "events.settling", "point"))(at)
+    assert room("events.impulse_load.least_impulse", ("problem", "point"), "", "d")(at) == pytest.approx(5e-10)
+    room("events.impulse_load.load", ("problem", "events.settling", "point"))(at)
     per = SHORT * 0.2
     assert at.array["y_probe"] == pytest.approx([5.0 / per, 2.0 / per, 2.0, 0.4 / per, 4.0, 5.0])
 
@@ -62,7 +55,7 @@ def test_the_time_of_an_impact_is_that_in_which_the_fastest_goes_as_far_as_it_is
         weight=np.r_[size * 1e-4, np.ones(bodies)], relative=relative,
         position_of=[*[-1] * bodies, *range(bodies)],
     )  # fmt: skip
-    room("impulse_load", "find_own_time", ("problem", "run", "point", "events.settling"))(at)
+    room("events.impulse_load.find_own_time", ("problem", "run", "point", "events.settling"))(at)
     fastest = np.maximum(np.abs(before), np.abs(before + change))
     assert at.number["own_time"] == pytest.approx(min(50.0, np.min(size / fastest)), rel=1e-12)
 
@@ -87,7 +80,7 @@ def test_energy_before_and_after_an_impact_differs_by_what_is_lost_and_what_supp
         {"n": n, "dissipated_at": n - 2, "supplied_at": n - 1, **sizes}, y=np.r_[v, np.zeros(3)], u=full, b=b, v=r,
         y_probe=np.full(n, e), lost=np.zeros(n), differential=np.ones(n), **given,
     )  # fmt: skip
-    change = room("impulse_changes", "change_speeds", ("problem", "point", "linear.matrices"), "ib")
+    change = room("events.impulse_changes.change_speeds", ("problem", "point", "linear.matrices"), "ib")
     change(at, 1, supports)
     after = v + (1.0 + e) * dv
     gained = 0.5 * (after @ masses @ after - v @ masses @ v)
@@ -102,7 +95,7 @@ def test_energy_before_and_after_an_impact_differs_by_what_is_lost_and_what_supp
 def test_only_what_is_struck_changes_its_speed():
     at = memory({"n": 3}, b=[1.0, -4.0, 2.0], u=np.zeros(3), struck=[1, 0, 1], weight=[1.0, 1.0, 0.5],
                 unweighed=np.zeros(3))  # fmt: skip
-    size = room("impulse_changes", "find_change_of_speed", ("problem", "point"), "", "d")(at)
+    size = room("events.impulse_changes.find_change_of_speed", ("problem", "point"), "", "d")(at)
     assert at.array["u"].tolist() == [1.0, 0.0, 2.0]
     assert size == 4.0
 
@@ -124,7 +117,7 @@ def test_the_integral_of_the_power_of_a_force_takes_in_the_work_of_its_impulse(e
         J[:] = y[1], y[0]  # of F v by v and by F
 
     kept = fields(at, 3, jacobian=(slopes, 2))
-    room("impulse_changes", "integrate_impulses", ("problem", "point", "linear.matrices", "events.settling"))(at)
+    room("events.impulse_changes.integrate_impulses", ("problem", "point", "linear.matrices", "events.settling"))(at)
     assert at.array["y"][2] - 10.0 == pytest.approx(0.5 * mass * (after**2 - v**2), rel=1e-12)
     assert kept
 
@@ -155,7 +148,7 @@ def test_all_that_an_impulse_joins_gives_back_by_the_least_coefficient_that_meet
         differential=np.r_[np.ones(bodies), np.zeros(rows)], speed_of=np.arange(n), unweighed=np.zeros(n),
         not_given_back=np.zeros(n), **given, **mass,
     )  # fmt: skip
-    found = room("rebound", "find_rebound", ("problem", "point", "linear.matrices"), "d", "i")(at, 1e-10)
+    found = room("events.rebound.find_rebound", ("problem", "point", "linear.matrices"), "d", "i")(at, 1e-10)
     edges = np.argwhere((joins != 0) & takes)
     graph = coo_array((np.ones(len(edges)), (edges[:, 0], bodies + edges[:, 1])), shape=(n, n))
     _, group = connected_components(graph, directed=False)
@@ -181,7 +174,7 @@ def test_a_rebound_below_ten_weights_is_none_and_what_it_would_have_been_is_kept
         x=np.zeros(2), weight=[1e-9, 1.0], rebound=[0.0, 0.5], takes_impulse=[0, UNLIMITED], differential=[1, 0],
         speed_of=[0, 1], unweighed=np.zeros(2), not_given_back=np.zeros(2), **given, **mass,
     )  # fmt: skip
-    assert room("rebound", "find_rebound", ("problem", "point", "linear.matrices"), "d", "i")(at, 0.0) == gives
+    assert room("events.rebound.find_rebound", ("problem", "point", "linear.matrices"), "d", "i")(at, 0.0) == gives
     assert at.array["not_given_back"][1] == (-1.0 if gives else size)
 
 
@@ -215,7 +208,7 @@ def test_how_far_rigid_rows_of_a_circle_move_apart_counts_in_weights_of_the_spee
     )  # fmt: skip
     call = slips((*[0.0] * bodies, *slip))
     at.number["call_slip"], at.number["worst"] = ctypes.cast(call, ctypes.c_void_p).value, -1
-    slip_of = room("given_apart", "slip_of_given", ("problem", "point", "linear.matrices"), "di", "d")
+    slip_of = room("events.given_apart.slip_of_given", ("problem", "point", "linear.matrices"), "di", "d")
     found = slip_of(at, 0.0, np.ones(n))
     counts = (circle > 0) & (takes == UNLIMITED)
     sizes = np.where(counts, np.abs(slip) / (np.abs(J[:bodies, bodies:]).T @ weight), 0.0)
@@ -236,7 +229,7 @@ def test_a_contact_that_slides_against_its_zone_turns_before_its_law_is_asked_an
         guard_tolerance=np.full(4, 1e-9), guard_machine=np.arange(4), fired=[2, 0, 0, 0],
     )  # fmt: skip
     kept = fields(at, 1, guards=(guards, 4))
-    room("impulse_zones", "turn_round", ("",))(at)
+    room("events.impulse_zones.turn_round", ("",))(at)
     assert at.array["fired"][: int(at.number["n_fired"])].tolist() == [2, 0]
     assert kept
 
@@ -260,7 +253,7 @@ def test_guards_are_asked_a_millionth_of_the_own_time_later_of_what_no_impulse_m
     )  # fmt: skip
     kept = fields(at, 2, rhs=(rhs, 2), guards=(guards, 1))
     later = 1e-6 * own_time
-    assert room("impulse_zones", "move_on", ("",), "", "d")(at) == pytest.approx(3.0 * later)
+    assert room("events.impulse_zones.move_on", ("",), "", "d")(at) == pytest.approx(3.0 * later)
     assert seen["t"] == later
     assert seen["y"].tolist() == [1.0 + later * force / mass, 2.0]
     assert at.array["wrong"][0] == seen["y"][0]

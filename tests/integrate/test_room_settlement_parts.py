@@ -3,49 +3,18 @@
 from __future__ import annotations
 
 import ctypes
-import functools
-import importlib
 import itertools
 
 import numpy as np
 import pytest
 
-from fairlead.integrate.codes import BEFORE, GO_ON, NONE_DUE, SETTLE, SETTLING_FOR_IT
+from fairlead.integrate.codes import BEFORE, DONE, GO_ON, NONE_DUE, SETTLE, SETTLING_FOR_IT
 from fairlead.integrate.linear.condensing import columns_of
-from tests.integrate.rooms import entry, fields, memory
+from tests.integrate.rooms import factorise, fields, memory, room
 from tests.integrate.test_linear import memory_for
 from tests.integrate.test_room_linear import algebraic
 
 NOT_REACHED = 2.0
-
-
-@functools.cache
-def room(module, name, owners, kinds="", result="v"):
-    function = getattr(importlib.import_module(f"fairlead.integrate.events.{module}"), name)
-    return entry(function, owners, kinds, result)
-
-
-@functools.cache
-def after_factors(module, name, kinds, result):
-    """call(memory, ...) -> what a function of (problem, point, linear, ...) says once W = -J is factorised."""
-    from fairlead.integrate.linear.systems import factorise_step
-    from fairlead.integrate.memory.foreign import compiled
-
-    function = getattr(importlib.import_module(f"fairlead.integrate.events.{module}"), name)
-
-    @compiled
-    def both(problem, point, linear):
-        factorise_step(linear, 1.0)
-        return function(problem, point, linear)
-
-    @compiled
-    def later(problem, point, linear, h):
-        factorise_step(linear, 1.0)
-        return function(problem, point, linear, h)
-
-    made = later if kinds else both
-    made.__qualname__ = f"{name} after factors"
-    return entry(made, ("problem", "point", "linear"), kinds, result)
 
 
 def point_of(W, numbers, y, **given):
@@ -87,7 +56,7 @@ def test_a_machine_that_is_kept_in_its_zone_has_no_guard_until_its_time_has_pass
     at, kept = asked(lambda t, y: [1.0, 2.0, 3.0], 3, t_release=release)
     at.array["blocked_until"][:] = 2.0, 0.5, 1.0
     at.array["guard_machine"][2] = -1
-    room("guards", "evaluate_guards", ("problem", "run", "events.guards"), "dii")(
+    room("events.guards.evaluate_guards", ("problem", "run", "events.guards"), "dii")(
         at, 1.0, at.array["y"], at.array["g"]
     )
     assert at.array["g"].tolist() == [-1.0 if release == 2.0 else 1.0, 2.0, 3.0]
@@ -99,7 +68,7 @@ def test_a_machine_that_is_kept_in_its_zone_has_no_guard_until_its_time_has_pass
 def test_what_remembers_waits_until_nothing_else_changes(fired, left):
     at = memory({"n_guards": 4, "n_fired": len(fired)}, fired=[*fired, *[0] * (4 - len(fired))],
                 latch_guard=[0, 1, 0, 1])  # fmt: skip
-    room("guards", "latches_wait", ("problem", "events.guards"))(at)
+    room("events.guards.latches_wait", ("problem", "events.guards"))(at)
     assert at.array["fired"][: int(at.number["n_fired"])].tolist() == left
 
 
@@ -115,7 +84,7 @@ def test_guards_along_a_step_are_those_of_the_interpolant_and_at_its_end_those_o
         at.point(name, np.array(value), np.float64)
     at.number["landing"], at.number["t_land"] = 1, 1.5000000001
     for s in (0.25, 1.0):
-        room("guards", "guards_at", ("",), "ddi")(at, s, 0.5, at.array["g"])
+        room("events.guards.guards_at", ("",), "ddi")(at, s, 0.5, at.array["g"])
     assert seen == [(1.125, pytest.approx(2.0 + 0.25 * 2.0 + 0.25 * 0.75 * 0.5)), (1.5000000001, 4.0)]
     assert kept
 
@@ -123,15 +92,8 @@ def test_guards_along_a_step_are_those_of_the_interpolant_and_at_its_end_those_o
 def test_a_step_that_is_taken_again_is_as_long_as_asked_and_tells_whether_it_was_too_long():
     at = memory({"retried": 2})
     for why, retried in ((0, 2), (1, 3)):
-        assert room("given_up", "take_again", ("run",), "di", "i")(at, 0.25, why) == GO_ON
+        assert room("events.given_up.take_again", ("run",), "di", "i")(at, 0.25, why) == GO_ON
         assert (at.number["h_next"], at.number["retried"]) == (0.25, retried)
-
-
-@functools.cache
-def mended():
-    from fairlead.integrate.events.given_up import mend_start
-
-    return entry(mend_start, ("",), "d", "i")
 
 
 @pytest.mark.parametrize("judged", [0, 1])
@@ -144,7 +106,7 @@ def test_guards_that_were_never_below_zero_settle_the_start_unless_it_is_settled
         at.point(name, np.array(values), np.float64)
     at.point("row_side", np.zeros(4), np.int64)
     at.point("differential", np.ones(1), np.int64)
-    assert mended()(at, 0.5) == GO_ON
+    assert room("events.given_up.mend_start", ("",), "d", "i")(at, 0.5) == GO_ON
     assert at.number["rejected_companion"] == 1
     if judged and slope < 0.0:
         assert at.number["h_next"] == 0.05
@@ -154,13 +116,6 @@ def test_guards_that_were_never_below_zero_settle_the_start_unless_it_is_settled
         assert at.number["phase"] == SETTLE
         assert at.array["row_side"][0] == BEFORE
     assert kept
-
-
-@functools.cache
-def sampled(name):
-    from fairlead.integrate.events import first_sample
-
-    return entry(getattr(first_sample, name), ("problem", "run", "point", "events"))
 
 
 def test_the_first_sample_is_taken_at_the_settled_point_and_the_scene_begins_from_what_was_given():
@@ -179,11 +134,11 @@ def test_the_first_sample_is_taken_at_the_settled_point_and_the_scene_begins_fro
                 guard_machine=[-1], fired=[0])  # fmt: skip
     at.point("zones", zones, np.int64)
     at.number["call_at_time"] = ctypes.cast(call, ctypes.c_void_p).value
-    sampled("settle_for_sample")(at)
+    room("events.first_sample.settle_for_sample", ("problem", "run", "point", "events"))(at)
     assert at.number["first_sample"] == SETTLING_FOR_IT
     assert 99.999999 < times[0] < 100.0
     at.array["y"][0], zones[0] = 8.0, 4  # what a settlement makes of them
-    sampled("take_first_sample")(at)
+    room("events.first_sample.take_first_sample", ("problem", "run", "point", "events"))(at)
     assert times[1:] == [100.0, 100.0]
     assert places == [7.0, 8.0, 7.0]
     assert (at.array["y"][0], zones[0]) == (7.0, 3)
@@ -199,7 +154,7 @@ def test_without_an_answer_guards_are_asked_at_the_point_before_then_without_for
     for name, values in (("y_unsettled", [2.0, 3.0]), ("slope_unsettled", [4.0, 5.0]), ("slope", np.zeros(2))):
         at.point(name, np.array(values), np.float64)
     at.point("pressing_row", np.array([1]), np.int64)
-    fires = room("no_answer", "fire_without_answer", ("",), "", "b")(at)
+    fires = room("events.no_answer.fire_without_answer", ("",), "", "b")(at)
     wanted = [] if often else [0] if first > 0.0 else [1] if pressing else []
     assert fires == bool(wanted)
     if not often:
@@ -222,7 +177,8 @@ def test_rigid_parts_can_have_the_answers_of_a_matrix_without_a_negative_princip
     at = point_of(W, {"n_pressing": count}, np.zeros(count), pressing_row=np.arange(count), pressing_sign=signs,
                   pressing_wrong=np.zeros(count), pressing_answer=np.zeros(count**2),
                   pressing_left=np.zeros(count**2))  # fmt: skip
-    assert after_factors("right_root", "are_rigid", "", "b")(at) == (min(minors) >= 0.0)
+    factorise(at, 1.0)
+    assert room("events.right_root.are_rigid", ("problem", "point", "linear"), "", "b")(at) == (min(minors) >= 0.0)
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -232,7 +188,7 @@ def test_a_slip_comes_back_at_the_first_root_at_which_it_rises(seed):
     roots = np.roots([0.5 * (rate_end - rate), rate, value])
     rising = [r.real for r in roots if abs(r.imag) < 1e-12 and rate + (rate_end - rate) * r.real > 0.0]
     wanted = min([r for r in rising if -1e-12 <= r <= 1.0], default=NOT_REACHED)
-    found = room("fast_way", "first_root", (), "ddd", "d")(memory(), value, rate, rate_end)
+    found = room("events.fast_way.first_root", (), "ddd", "d")(memory(), value, rate, rate_end)
     assert found == pytest.approx(wanted, abs=1e-9)
 
 
@@ -242,7 +198,7 @@ def test_a_slip_comes_back_at_the_first_root_at_which_it_rises(seed):
 )
 def test_a_load_brings_a_guard_to_zero_after_the_share_of_its_way_that_a_line_says(now, then, share):
     at = memory({"n_guards": 1}, g=[now], g_probe=[then], guard_tolerance=[1e-9])
-    assert room("fast_way", "reached_by_load", ("events.guards",), "i", "d")(at, 0) == share
+    assert room("events.fast_way.reached_by_load", ("events.guards",), "i", "d")(at, 0) == share
 
 
 def test_of_a_way_that_is_gone_in_shares_the_rest_of_the_load_is_left():
@@ -253,7 +209,7 @@ def test_of_a_way_that_is_gone_in_shares_the_rest_of_the_load_is_left():
         left=[1.0], g=[0.0], guard_tolerance=[1e-9], may_hold=[0], rate=[0.0], rate_end=[0.0], fast_slip=[0.0],
         born=[0], came_back=[0],
     )  # fmt: skip
-    go = room("fast_way", "go_along", ("problem", "point", "events"), "d")
+    go = room("events.fast_way.go_along", ("problem", "point", "events"), "d")
     go(at, 2.0 / 3.0)
     assert at.array["slope"][0] == pytest.approx(2.0 + 4.0)
     assert at.array["y"].tolist() == [0.0, pytest.approx(1.0 + 2.0)]
@@ -272,17 +228,12 @@ def test_a_slip_in_the_time_of_a_level_is_the_integral_of_its_rate(rate, rate_en
         g=[0.0], guard_tolerance=[1e-9], may_hold=[1], rate=[rate], rate_end=[rate_end], fast_slip=[0.0], born=[0],
         came_back=[0],
     )  # fmt: skip
-    room("fast_way", "go_along", ("problem", "point", "events"), "d")(at, s)
+    room("events.fast_way.go_along", ("problem", "point", "events"), "d")(at, s)
     nodes, weights = np.polynomial.legendre.leggauss(3)
     places = 0.5 * s * (nodes + 1.0)
     integral = 0.5 * s * weights @ (rate + (rate_end - rate) * places)
     assert at.array["fast_slip"][0] == pytest.approx(left * integral)
     assert at.array["born"][0] == born
-
-
-@functools.cache
-def balanced(name, result):
-    return after_factors("balance", name, "", result)
 
 
 @pytest.mark.parametrize(("off", "moves"), [(1e-13, False), (5e-4, True), (2e-3, False)])
@@ -297,23 +248,10 @@ def test_a_node_between_two_springs_goes_to_where_they_balance_by_less_than_a_we
     at = point_of(np.diag([1.0, k1 + k2]), {"n_balanced": 1}, [place + off, 0.0], balanced_position=[0],
                   balanced_speed=[1])  # fmt: skip
     kept = fields(at, 2, gap=(gap, 2))
-    assert balanced("close_balance", "b")(at) == moves
+    factorise(at, 1.0)
+    assert room("events.balance.close_balance", ("problem", "point", "linear"), "", "b")(at) == moves
     assert at.array["y"][0] == pytest.approx(place if moves else place + off, abs=1e-15)
     assert kept
-
-
-@functools.cache
-def jumped():
-    from fairlead.integrate.events.balance import jump_to_balance
-    from fairlead.integrate.linear.systems import factorise_step
-    from fairlead.integrate.memory.foreign import compiled
-
-    @compiled
-    def jump(m):
-        factorise_step(m.linear, 1.0)
-        return jump_to_balance(m)
-
-    return entry(jump, ("",), "", "b")
 
 
 @pytest.mark.parametrize("start", [0.0, 1.0])
@@ -330,7 +268,8 @@ def test_what_springs_give_in_a_jump_is_dissipated_but_at_the_start(start):
                   "start": start}, [off, 0.0, 5.0], balanced_position=[0], balanced_speed=[1],
                   row_values=np.zeros(2))  # fmt: skip
     kept = fields(at, 3, gap=(gap, 3), outputs=(energy, 2))
-    assert jumped()(at)
+    factorise(at, 1.0)
+    assert room("events.balance.jump_to_balance", ("",), "", "b")(at)
     assert at.array["y"] == pytest.approx([0.0, 0.0, 5.0 + (0.5 * k * off**2 if start < 1.0 else 0.0)], abs=1e-15)
     assert kept
 
@@ -355,8 +294,9 @@ def test_a_pendulum_that_is_off_its_circle_goes_back_the_least_way(angle, off):
     """Along the rod; what it has moved is told in weights of 1e-3, of the position that moves most of them."""
     direction = np.array([np.cos(angle), np.sin(angle)])
     at, kept = pendulum((1.0 + off) * direction)
-    assert room("position", "off_place", ("problem", "point"), "", "b")(at)
-    assert after_factors("position", "project_positions", "", "i")(at) == 20
+    assert room("events.position.off_place", ("problem", "point"), "", "b")(at)
+    factorise(at, 1.0)
+    assert room("events.position.project_positions", ("problem", "point", "linear"), "", "i")(at) == DONE
     np.testing.assert_allclose(at.array["y"][:2], direction, atol=abs(off) ** 4)
     moved = np.max(np.abs(off * direction)) / 1e-3
     assert at.number["moved"] == pytest.approx(moved, rel=1e-6)
@@ -373,7 +313,9 @@ def test_how_far_the_end_of_a_step_is_off_is_read_from_the_accelerations_that_wo
         out[:] = 0.0, 0.02
 
     kept = fields(at, 2, gap=(gap, 2))
-    assert after_factors("position", "way_back", "d", "d")(at, 0.25) == pytest.approx(0.02 / 4.0 / 1e-3)
+    factorise(at, 1.0)
+    way_back = room("events.position.way_back", ("problem", "point", "linear"), "d", "d")
+    assert way_back(at, 0.25) == pytest.approx(0.02 / 4.0 / 1e-3)
     assert times == [1.25]
     assert kept
 
@@ -385,5 +327,5 @@ def test_rows_that_hold_a_node_without_inertia_are_in_units_of_its_speed():
         jacobian=[-5.0], jacobian_starts=[0, 1, 1], jacobian_rows=[1],
     )  # fmt: skip
     r = np.zeros(2)
-    room("position", "in_units_of_light", ("problem", "linear.matrices"), "ii")(at, np.array([9.0, 4.0]), r)
+    room("events.position.in_units_of_light", ("problem", "linear.matrices"), "ii")(at, np.array([9.0, 4.0]), r)
     assert r.tolist() == [0.0, 4.0 * (1.0 + 5.0 / 2.0)]

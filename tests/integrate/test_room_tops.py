@@ -8,9 +8,21 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
 
-from tests.integrate.rooms import entry, fields, memory
+from tests.integrate.rooms import entry, fields, memory, room
 
 NEAR = 2.0**-10
+
+
+def next_place(at, *given):
+    return room("events.bumps.next_place", (), "ddddddd", "d")(at, *given)
+
+
+def bump(at, h):
+    return room("events.bumps.find_earliest_bump", ("",), "d", "d")(at, h)
+
+
+def edge(at, h, before):
+    return room("events.edges.find_edge", ("",), "dd", "d")(at, h, before)
 
 
 @functools.cache
@@ -28,27 +40,6 @@ def pair(name, kinds):
 
     both.__qualname__ = f"both of {name}"  # by which the code is kept
     return entry(both, (), kinds + "i")
-
-
-@functools.cache
-def next_asked():
-    from fairlead.integrate.events.bumps import next_place
-
-    return entry(next_place, (), "ddddddd", "d")
-
-
-@functools.cache
-def bump():
-    from fairlead.integrate.events.bumps import find_earliest_bump
-
-    return entry(find_earliest_bump, ("",), "d", "d")
-
-
-@functools.cache
-def edge():
-    from fairlead.integrate.events.edges import find_edge
-
-    return entry(find_edge, ("",), "dd", "d")
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -93,9 +84,9 @@ def test_the_next_place_is_the_top_of_the_parabola_through_three_unless_as_much_
     height = constant - line**2 / (4 * curve)
     inside = a + 0.1 * (x - a) <= top <= b - 0.1 * (b - x) and abs(top - x) > 1e-3 * (b - a)
     above, below = gx + 2 * (height - gx) - 1e-9, gx + 2 * (height - gx) + 1e-9
-    assert next_asked()(memory(), a, ga, x, gx, b, gb, below) == 1.0
+    assert next_place(memory(), a, ga, x, gx, b, gb, below) == 1.0
     if inside:
-        assert next_asked()(memory(), a, ga, x, gx, b, gb, above) == pytest.approx(top, rel=1e-6)
+        assert next_place(memory(), a, ga, x, gx, b, gb, above) == pytest.approx(top, rel=1e-6)
 
 
 def searched(find, guards, *arguments, least=0):
@@ -134,7 +125,7 @@ def hump(centre, height, lean):
 def test_a_guard_that_is_above_zero_inside_a_step_is_found_where_it_is(height, centre, lean):
     guard = hump(centre, height, lean)
     assert max(guard(0.0), guard(1.0)) < 0.0
-    place, asked = searched(bump(), [guard])
+    place, asked = searched(bump, [guard])
     assert guard(place) >= 0.0
     assert asked <= 6  # the one before the end, and a few on the way to the top: parabolas close in fast
 
@@ -144,9 +135,9 @@ def test_of_many_guards_the_first_place_found_is_above_zero_and_none_is_found_wh
     rng = np.random.default_rng(seed)
     high = [hump(rng.uniform(0.35, 0.65), rng.uniform(0.001, 0.2), rng.uniform(-0.9, 0.9)) for _ in range(3)]
     low = [hump(rng.uniform(0.35, 0.65), -rng.uniform(0.01, 0.5), rng.uniform(-0.9, 0.9)) for _ in range(3)]
-    place, _ = searched(bump(), [*low, *high])
+    place, _ = searched(bump, [*low, *high])
     assert max(one(place) for one in high) >= 0.0
-    assert searched(bump(), low)[0] == 1.0
+    assert searched(bump, low)[0] == 1.0
 
 
 @pytest.mark.parametrize("seed", range(10))
@@ -159,7 +150,7 @@ def test_the_edge_where_two_straight_values_meet_is_found_with_the_first_place_a
     def least(s):
         return min(height + up * (s - edge_at), height - down * (s - edge_at))
 
-    place, asked = searched(edge(), [least], 1.0, least=1)
+    place, asked = searched(edge, [least], 1.0, least=1)
     if above:
         assert place == pytest.approx(edge_at, abs=2e-3)
         assert least(place) >= 0.0
@@ -179,7 +170,7 @@ def test_an_edge_of_curved_values_is_found_wherever_a_scan_finds_it_well_above_z
         return min(height + 4.0 * d + bends[0] * d * d, height - 4.0 * d + bends[1] * d * d)
 
     assert max(least(s) for s in np.linspace(0, 1, 501)) > 0.0
-    place, _ = searched(edge(), [least], 1.0, least=1)
+    place, _ = searched(edge, [least], 1.0, least=1)
     assert least(place) >= 0.0
 
 
@@ -187,5 +178,5 @@ def test_an_edge_is_looked_for_only_of_a_least_of_several_values_and_before_what
     def least(s):
         return 0.1 - 4.0 * abs(s - 0.5)
 
-    assert searched(edge(), [least], 1.0, least=0)[0] == 1.0
-    assert searched(edge(), [least], 0.25, least=1)[0] == 0.25
+    assert searched(edge, [least], 1.0, least=0)[0] == 1.0
+    assert searched(edge, [least], 0.25, least=1)[0] == 0.25
