@@ -168,7 +168,7 @@ class Stepping:
 
     def _told(self, memory: Memory) -> None:
         """Tell a run that has just been made how it is used."""
-        memory.number["narrow_at"] = NEVER_LOOK
+        memory.number["restrict_at"] = NEVER_LOOK
         memory.number["samples"] = 1  # forces are those of the point, not of the step before it
         memory.spread()
 
@@ -264,11 +264,11 @@ class Stepping:
 
     @property
     def _memory(self) -> Memory:
-        return self._going.scope.memory
+        return self._going.active.memory
 
     @property
     def _instance(self) -> Instance:
-        return self._going.scope.problem  # type: ignore[return-value]
+        return self._going.active.problem  # type: ignore[return-value]
 
     def _time(self, t: float | str) -> float:
         try:
@@ -331,13 +331,13 @@ class Stepping:
 
     def _ended(self) -> tuple[str, float]:
         """Why the run ended, and when."""
-        scope, status = self._going.scope, self._going.status
-        if said := failure_of(scope.problem, status, self.t):
+        active, status = self._going.active, self._going.status
+        if said := failure_of(active.problem, status, self.t):
             return said, self.t
-        culprits = culprits_of(status, scope.memory, scope.problem)
-        if said := open_at(scope.problem, status, culprits, self.t):
+        culprits = culprits_of(status, active.memory, active.problem)
+        if said := open_at(active.problem, status, culprits, self.t):
             return said, self.t
-        said = sentence_of(status, scope.memory, scope.problem, self._going.run, culprits)
+        said = sentence_of(status, active.memory, active.problem, self._going.run, culprits)
         if status == Status.NOT_SETTLED:
             said = with_way_out(said, self._of, self._going.engine.name, culprits)
         return said, self.t

@@ -24,7 +24,7 @@ from fairlead.analysis.cost.kept_runs import code_digest
 from fairlead.component.dependencies import dependencies
 from fairlead.component.numbers import numbers
 from fairlead.errors import NoCopyError, UsageError, listing, shown
-from fairlead.integrate.parts import ScopeState
+from fairlead.integrate.parts import SubsystemState
 from fairlead.integrate.prepare import planned
 from fairlead.integrate.problem import Status
 from fairlead.integrate.underway import Saved, Underway
@@ -188,8 +188,8 @@ def brought_back(state: Elsewhere, maker: Maker, take: OnBlock) -> State:
     following = now._replace(tunable=maker.valued(kept.next))
     if kept.goes_over:
         following = maker.standing(kept.now._replace(values=kept.next), take)
-    scope = ScopeState(kept.arena, _read(kept.knows, now.going), None, kept.own, None)
-    return State(state.t, Saved(scope, kept.status, kept.replanned_at), maker, following, now)
+    active = SubsystemState(kept.arena, _read(kept.knows, now.going), None, kept.own, None)
+    return State(state.t, Saved(active, kept.status, kept.replanned_at), maker, following, now)
 
 
 def fitting(state: State, maker: Maker) -> None:
@@ -227,15 +227,15 @@ def _refuse(why: str, way_out: str) -> NoReturn:
 
 
 def _elsewhere(state: State) -> Elsewhere:
-    maker, scope, now = state.maker, state.saved.scope, state.now
-    if maker.tunable is None or state.next.tunable is None or now.tunable is None or scope.part is not None:
+    maker, active, now = state.maker, state.saved.active, state.now
+    if maker.tunable is None or state.next.tunable is None or now.tunable is None or active.part is not None:
         raise NoCopyError("This state is of a run without its model, and cannot be pickled. Take one of model.start().")
     run = now.going.run
     initial = now.going.problem.initial.copy()
     way = Way(maker.changed(now.tunable), initial, run.start, run.stop)
     kept = Kept(
-        maker.settings(), maker.told(), maker.digest(), _plan(now.going), scope.whole, scope.own, state.saved.status,
-        state.saved.replanned_at, tuple(_written(scope.remembered, now.going)), way, maker.changed(state.next.tunable),
+        maker.settings(), maker.told(), maker.digest(), _plan(now.going), active.whole, active.own, state.saved.status,
+        state.saved.replanned_at, tuple(_written(active.remembered, now.going)), way, maker.changed(state.next.tunable),
         state.next.own is not now.own,
     )  # fmt: skip
     return Elsewhere(state.t, _name(maker), _fairlead(), pickle.dumps(kept))
@@ -243,7 +243,7 @@ def _elsewhere(state: State) -> Elsewhere:
 
 def _written(remembered: Sequence[Any], going: Underway) -> Iterator[bytes]:
     """What controllers know, each as bytes: the attributes of its object, which is made again where it arrives."""
-    for controller, (of, failure, at) in zip(going.scope.whole_problem.controllers, remembered, strict=True):  # type: ignore[attr-defined]
+    for controller, (of, failure, at) in zip(going.active.whole_problem.controllers, remembered, strict=True):  # type: ignore[attr-defined]
         try:
             yield pickle.dumps((None if of is None else vars(of), failure, at))
         except Exception as error:  # whatever a user's class raises
@@ -254,7 +254,7 @@ def _written(remembered: Sequence[Any], going: Underway) -> Iterator[bytes]:
 
 def _read(knows: Sequence[bytes], going: Underway) -> list[Any]:
     found = []
-    for controller, text in zip(going.scope.whole_problem.controllers, knows, strict=True):  # type: ignore[attr-defined]
+    for controller, text in zip(going.active.whole_problem.controllers, knows, strict=True):  # type: ignore[attr-defined]
         attributes, failure, at = pickle.loads(text)
         of = None
         if attributes is not None:

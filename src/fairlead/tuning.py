@@ -197,10 +197,10 @@ def _same_tables(one: System, two: System) -> bool:
 
 def gone_on(going: Underway, old: System, new: System, t: float, span: float, *, begun: bool) -> Underway:
     """The run of the System `new` from where that of `old` is, which stays as it is, with `span` as its length [s]."""
-    memory, was = going.scope.memory, going.scope.problem
+    memory, was = going.active.memory, going.active.problem
     begin = replace(new, initial=memory.array["y"].copy()) if begun else new
     made = Underway(begin, replace(going.run, start=t, stop=t + span) if begun else going.run, going.take)
-    now: Instance = made.scope.problem  # type: ignore[assignment]
+    now: Instance = made.active.problem  # type: ignore[assignment]
     for name in KEPT if begun else ("set_due", "set_values"):
         now.memory[name][...] = was.memory[name]  # type: ignore[attr-defined]
     for k, (before, after) in enumerate(zip(old.blocks, new.blocks, strict=True)):

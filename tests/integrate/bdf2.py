@@ -13,7 +13,7 @@ from fairlead.integrate.codes import DONE
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.events.arrival import arrive
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import factorise_step, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_step, solve, solve_checked
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep, trial_of
@@ -58,7 +58,7 @@ def take(m, h):
                 v[k] += a2 * (y[k] - K[EARLIER * n + k]) / h
         add_mass_times(linear.matrices, point.at_v, point.at_b)
         if i == 0:
-            status = solve_watched(linear, point.at_b)
+            status = solve_checked(linear, point.at_b)
         else:
             solve(linear, point.at_b)
         moved = 0.0

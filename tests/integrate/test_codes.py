@@ -14,7 +14,7 @@ LINEAR = ("DONE", "SINGULAR", "INACCURATE")
 OF_A_SETTLEMENT = ("NOT_CONSISTENT", "TOO_MANY_PASSES", "NO_ROOM", "RELEASED", "RUBBED", "APART")
 OF_A_STEP = ("CYCLES", "DIVERGES", "JUMPS", "ONCE_MORE", "AFRESH")
 STATUSES = {"SINGULAR_MATRIX" if status.name == "SINGULAR" else status.name: status for status in Status}
-ONLY_PYTHON = {Status.FINISHED, Status.NARROW, Status.WIDEN, Status.MAX_WALL, Status.INTERRUPTED}
+ONLY_PYTHON = {Status.FINISHED, Status.RESTRICT, Status.REACTIVATE, Status.MAX_WALL, Status.INTERRUPTED}
 """Statuses that the loop of an FMU never returns: it has no end, no parts, and no clock."""
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -31,8 +31,9 @@ def test_statuses_have_the_numbers_that_compiled_code_returns():
 def test_statuses_that_were_given_out_keep_their_numbers():
     """They leave the engine: FMUs, saved runs and callers of `integrate` know them."""
     assert [Status(number).name for number in range(-5, 14)] == [
-        "WIDEN", "NARROW", "REPLAN", "BUFFER_FULL", "PAUSED", "FINISHED", "STEP_FLOOR", "NOT_FINITE", "NOT_SETTLED",
-        "INCONSISTENT", "SINGULAR", "CHATTER", "MAX_STEPS", "MAX_EVENTS", "MAX_WALL", "INTERRUPTED", "REBOUND_RUBS",
+        "REACTIVATE", "RESTRICT", "REPLAN", "BUFFER_FULL", "PAUSED", "FINISHED", "STEP_FLOOR", "NOT_FINITE",
+        "NOT_SETTLED", "INCONSISTENT", "SINGULAR", "CHATTER", "MAX_STEPS", "MAX_EVENTS", "MAX_WALL", "INTERRUPTED",
+        "REBOUND_RUBS",
         "ENDED", "GIVEN_APART",
     ]  # fmt: skip
 

@@ -25,13 +25,13 @@ NOTHING_KEPT = np.zeros((0, 3), dtype=np.int64)
 @functools.cache
 def solver():
     """(address of the struct, scale, address of b) -> status: assemble, factorise, solve with the check."""
-    from fairlead.integrate.linear.systems import factorise_consistent, factorise_step, solve_watched
+    from fairlead.integrate.linear.systems import factorise_consistent, factorise_step, solve_checked
     from fairlead.integrate.memory.foreign import memory_at
 
     def run(address, scale, at_x):
         linear = memory_at(address).linear
         status = factorise_step(linear, scale) if scale > 0.0 else factorise_consistent(linear)
-        return status if status != DONE else solve_watched(linear, at_x)
+        return status if status != DONE else solve_checked(linear, at_x)
 
     return machine_code("assemble, factorise, solve", "idi", "i", lambda: run)
 
@@ -84,11 +84,11 @@ def mechanical_network(rng, bodies, contacts):
 
 
 def memory_for(problem, plan, perturbed=0):
-    n, core = len(problem.initial), plan.lengths["n_core"]
+    n, reduced = len(problem.initial), plan.lengths["n_reduced"]
     lengths = dict.fromkeys([*VECTORS.values(), *INDICES.values()], 1) | {
         "n": n, "n_plus_1": n + 1, "three_n": 3 * n, "n_jacobian": len(problem.pattern.rows), **plan.lengths,
-        "n_core_plus_1": core + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
-        "most_perturbed": perturbed, "perturbed_square": perturbed**2, "perturbed_core": perturbed * core,
+        "n_reduced_plus_1": reduced + 1, "n_quadrature_rows_plus_1": plan.lengths["n_quadrature_rows"] + 1,
+        "most_perturbed": perturbed, "perturbed_square": perturbed**2, "perturbed_reduced": perturbed * reduced,
         "n_mass": len(problem.mass_pattern.rows), "n_matrix": plan.size,
         "n_lower": len(plan.arrays.get("lower_rows", ())),
         "n_upper": len(plan.arrays.get("upper_rows", ())),
@@ -111,7 +111,7 @@ def memory_for(problem, plan, perturbed=0):
 def planned(problem, backwards=False):
     """The sparse plan, in its own order or in the opposite one."""
     layout = condensing.lay_out(problem)
-    entries = condensing.core_entries(problem, layout)
+    entries = condensing.reduced_entries(problem, layout)
     order = ordering.elimination_order(problem, layout, entries)
     order = order[::-1].copy() if backwards else order
     return ordering.sparse_plan(problem, layout, entries, order, order)
@@ -270,8 +270,8 @@ def test_condensed_positions_cause_no_fill_in_a_chain():
         differential=np.ones(n, bool), quadrature=np.zeros(n, bool), moves=NOTHING_KEPT,
     )  # fmt: skip
     plan = ordering.plan(problem)
-    # The core is tridiagonal in the speeds; eliminated by rounds, each touches two others.
-    assert plan.lengths["n_core"] == bodies
+    # The reduced matrix is tridiagonal in the speeds; eliminated by rounds, each touches two others.
+    assert plan.lengths["n_reduced"] == bodies
     assert len(plan.arrays["lower_rows"]) + len(plan.arrays["upper_rows"]) <= 4 * bodies
 
 

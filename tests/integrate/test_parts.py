@@ -17,19 +17,18 @@ OF_THE_RUN = {
     "step_floor_given",
     "least_theta", "fixed_step",
 }  # fmt: skip
-OF_THE_PLACE = {"narrow_at", "narrowed", "woken", "rows", "events"}
+OF_THE_PLACE = {"restrict_at", "is_part", "boundary_switched", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
 OF_A_SETTLEMENT = {
-    "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "look", "least_look", "nearness",
-    "own_time", "culprit", "worst", "ordered", "levels", "level_due", "nothing_before", "fastest", "without_answer",
-    "no_pivots",
+    "n_fired", "passes", "one_by_one", "stage", "stage_from", "fewest", "waited", "lookahead",
+    "least_lookahead", "nearness", "own_time", "culprit", "worst", "ordered", "levels",
+    "level_due", "nothing_before", "fastest", "without_answer", "no_pivots",
 }  # fmt: skip
 OF_A_STEP = {
-    "jacobian_fresh", "algebraic_speeds", "linearised", "newly_held", "unchecked", "expecting", "rows_slip",
-    "core_kind",
-    "core_valid", "core_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ", "rows_alone", "assumed",
-    "invalidated",
-    "caught_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
+    "jacobian_fresh", "algebraic_speeds", "linearised", "any_captured", "unchecked", "expecting", "rows_slip",
+    "reduced_kind", "reduced_valid", "reduced_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ",
+    "rows_alone", "assumed", "invalidated",
+    "captured_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
     "searched", "frozen", "instant", "midway", "replanned", "theta_now",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""

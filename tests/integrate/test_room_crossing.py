@@ -14,7 +14,7 @@ from tests.integrate.rooms import entry, fields, memory
 from tests.integrate.test_linear import memory_for
 from tests.integrate.test_room_linear import algebraic
 
-NONE, CROSSING, COMPANION = 0, 1, 2
+NONE, CROSSING, INCONSISTENT_START = 0, 1, 2
 NEVER = 1e308
 BUMPS = ("left", "left_g", "top", "top_g", "right", "right_g", "asks", "rise", "fall", "guard", "places")
 
@@ -184,7 +184,7 @@ def test_where_rounding_has_a_guard_above_zero_before_it_dips_is_not_where_it_co
 
 def test_a_guard_that_leaves_zero_upwards_says_that_the_zones_were_wrong():
     at, _kept = step_of(lambda y: y, lambda y: y - 0.5)
-    assert crossed()(at, 1.0) == COMPANION
+    assert crossed()(at, 1.0) == INCONSISTENT_START
     assert at.array["fired"][: int(at.number["n_fired"])].tolist() == [0]
 
 

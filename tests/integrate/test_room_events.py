@@ -78,13 +78,13 @@ def test_which_machine_goes_first_does_not_hang_on_the_order_in_which_they_are_s
 @pytest.mark.parametrize("never_below", [False, True])
 def test_of_a_crossing_those_fire_that_come_from_below_zero_unless_one_was_never_below(never_below):
     """One that is above its tolerance and never was below says that the zones were wrong before the step."""
-    from fairlead.integrate.events.crossing import COMPANION, CROSSING
+    from fairlead.integrate.events.crossing import CROSSING, INCONSISTENT_START
 
     third = [1.0, 0.5, 1.0] if never_below else [-1.0, -0.5, -0.5]
     at = memory(
         {"n_guards": 4}, g_left=[-1.0, -1.0, third[0], -1.0], g_right=[0.5, -0.5, third[1], 0.0],
         g_end=[1.0, -1.0, third[2], 1.0], g=[-1.0, -1.0, third[0], -1.0], guard_tolerance=[1e-3] * 4, fired=[0] * 4,
     )  # fmt: skip
-    assert fired_of()(at, True) == (COMPANION if never_below else CROSSING)
+    assert fired_of()(at, True) == (INCONSISTENT_START if never_below else CROSSING)
     fired = set(at.array["fired"][: int(at.number["n_fired"])].tolist())
     assert fired == ({2} if never_below else {0, 3})

@@ -48,13 +48,13 @@ def metered():
     return entry(meter, ("",), "d")
 
 
-def equations(J, field, meters=()):
+def equations(J, field, quadratures=()):
     """A memory with y' = f(t, y), J, and which unknowns are quadratures; and what must be kept."""
     n = len(J)
     every = pattern_of(np.ones((n, n), bool))
     problem = SimpleNamespace(
         initial=np.zeros(n), pattern=every, mass_pattern=pattern_of(np.eye(n, dtype=bool)),
-        differential=np.ones(n, bool), quadrature=np.isin(np.arange(n), meters), moves=NOTHING_KEPT,
+        differential=np.ones(n, bool), quadrature=np.isin(np.arange(n), quadratures), moves=NOTHING_KEPT,
     )  # fmt: skip
     at = memory_for(problem, ordering.dense_plan(problem))
     at.array["jacobian"][:], at.array["mass"][:] = J.T.ravel(), 1.0
@@ -174,7 +174,7 @@ def test_a_motion_given_as_a_cubic_of_time_is_integrated_exactly_without_more_of
 def test_a_rate_of_degree_five_is_metered_exactly_to_the_end_of_the_piece(seed, theta):
     """Three nodes of Gauss. The rate follows a place that moves steadily."""
     rate = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=6))
-    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [1.0, rate(y[0])], meters=[1])
+    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [1.0, rate(y[0])], quadratures=[1])
     at.array["y"][:], at.array["y_end"][:] = [0.0, 5.0], [H, 77.0]
     at.number["cut_at"] = theta
     metered()(at, H)
@@ -195,7 +195,7 @@ def test_the_work_of_a_bond_that_grows_within_a_step_is_metered(theta, grows):
         force = 1e9 * np.exp(grows * t / H) * (a * t - y[0])
         return [force / m, force * a * t]
 
-    at, _kept = equations(np.array([[-1e9 / m, 0.0], [0.0, 0.0]]), field, meters=[1])
+    at, _kept = equations(np.array([[-1e9 / m, 0.0], [0.0, 0.0]]), field, quadratures=[1])
     at.array["y_end"][:], at.array["D"][:2] = [a * H, 77.0], [1e-6, 0.0]
     at.array["weight"][:] = 1e-6
     at.number["cut_at"] = theta
@@ -210,7 +210,7 @@ def test_what_follows_nothing_is_moved_once_for_its_residual(way):
 
     A meter of the place shows where it was moved to: to rest, at its mean.
     """
-    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [0.0, y[0]], meters=[1])
+    at, _kept = equations(np.zeros((2, 2)), lambda _t, y: [0.0, y[0]], quadratures=[1])
     at.array["y_end"][:], at.array["weight"][:], at.number["cut_at"] = [way, 77.0], 1e-9, 1.0
     metered()(at, H)
     assert at.array["y_piece"][1] == pytest.approx(H * (way / 2 - way / 2), abs=1e-12)

@@ -15,7 +15,7 @@ from tests.integrate.test_linear import mechanical_network, memory_for, planned
 
 
 def factorise():
-    return room("linear.condensed.factorise_core", ("linear",), "db", "i")
+    return room("linear.condensed.factorise_reduced", ("linear",), "db", "i")
 
 
 @functools.cache
@@ -47,7 +47,7 @@ class Network:
 
     def by_columns(self, values, rows, starts):
         """A full matrix of entries that stand by columns."""
-        n = int(self.at.number["n_core"])
+        n = int(self.at.number["n_reduced"])
         full = np.zeros((n, n))
         for k in range(n):
             for p in range(starts[k], starts[k + 1]):
@@ -68,7 +68,7 @@ class Network:
 def test_lower_times_upper_is_the_matrix_in_the_order_of_its_pivots(seed, consistent):
     network = Network(seed)
     assert factorise()(network.at, 1e3, consistent) == DONE
-    n = int(network.at.number["n_core"])
+    n = int(network.at.number["n_reduced"])
     L, U = network.part("lower") + np.eye(n), network.part("upper") + np.diag(1.0 / network.at.array["pivot"])
     A = network.part("matrix")
     np.testing.assert_allclose(L @ U, A, atol=1e-13 * np.max(np.abs(L) @ np.abs(U)))
@@ -93,7 +93,7 @@ def test_who_uses_a_column_is_who_is_reached_along_the_upper_factor(seed):
     network = Network(seed)
     at = network.at
     assert factorise()(at, 1e3, False) == DONE
-    n = int(at.number["n_core"])
+    n = int(at.number["n_reduced"])
     begin = int(network.rng.integers(n))
     uses = network.by_columns(np.ones(len(at.array["upper_rows"])), at.array["upper_rows"], at.array["upper_starts"])
     reached = np.linalg.matrix_power(np.eye(n) + (uses > 0), n)[begin] > 0  # walks of any length, by squaring
@@ -114,7 +114,7 @@ def test_after_a_change_of_a_few_entries_the_factors_are_to_the_bit_those_of_the
     for other in (network, whole):
         other.put(J, M)
         assert factorise()(other.at, 1e3, False) == DONE
-    n = network.at.number["n_core"]
+    n = network.at.number["n_reduced"]
     assert whole.at.number["n_redone"] == n
     assert network.at.number["n_redone"] < n
     for kept, anew in zip(network.factors(), whole.factors(), strict=True):
@@ -130,11 +130,11 @@ def test_the_backward_error_is_the_largest_scaled_residual_over_the_largest_scal
     scale = at.array["row_scale"][: len(A)]
     b = rng.normal(size=len(A))
     x = np.linalg.solve(A, b) * (1.0 + 1e-6 * rng.normal(size=len(A)))
-    at.array["core_x"][:], at.array["core_b"][:] = x, b
+    at.array["reduced_x"][:], at.array["reduced_b"][:] = x, b
     left = b - A @ x
     wanted = np.max(scale * np.abs(left)) / np.max(scale * (np.abs(b) + np.abs(A) @ np.abs(x)))
     assert room("linear.sparse.backward_error", ("linear",), "", "d")(at) == pytest.approx(wanted, rel=1e-6)
-    np.testing.assert_allclose(at.array["core_residual"], left, atol=1e-12 * np.max(np.abs(A) @ np.abs(x)))
+    np.testing.assert_allclose(at.array["reduced_residual"], left, atol=1e-12 * np.max(np.abs(A) @ np.abs(x)))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -146,7 +146,7 @@ def test_a_solution_without_its_quadratures_has_all_else_to_the_bit(seed):
     found = []
     for quadratures in (True, False):
         x = b.copy()
-        room("linear.condensed.solve_core", ("linear",), "ibd", "d")(at, x, quadratures, 0.0)
+        room("linear.condensed.solve_reduced", ("linear",), "ibd", "d")(at, x, quadratures, 0.0)
         found.append(x)
     motion = ~network.problem.quadrature
     W = (1e3 * network.M - network.J)[np.ix_(motion, motion)]
@@ -159,7 +159,7 @@ def test_what_perturbed_pivots_have_in_common_is_eliminated_with_the_pivots_of_l
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 7))
     C = rng.normal(size=(count, count))
-    at = memory({"most_perturbed": count, "n_core": 1}, capacitance_order=np.zeros(count), perturbed=np.zeros(count))
+    at = memory({"most_perturbed": count, "n_reduced": 1}, capacitance_order=np.zeros(count), perturbed=np.zeros(count))
     c = C.copy()
     assert capacitance_factors()(at, c, count) == DONE
     wanted, order = linalg.lu_factor(C)
@@ -169,7 +169,7 @@ def test_what_perturbed_pivots_have_in_common_is_eliminated_with_the_pivots_of_l
 
 def test_perturbed_pivots_of_a_singular_matrix_name_the_unknown_where_that_shows():
     C = np.array([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [1.0, 0.0, 1.0]])
-    at = memory({"most_perturbed": 3, "n_core": 9}, capacitance_order=np.zeros(3), perturbed=[2, 5, 7],
+    at = memory({"most_perturbed": 3, "n_reduced": 9}, capacitance_order=np.zeros(3), perturbed=[2, 5, 7],
                 column_order=10 + np.arange(9))  # fmt: skip
     assert capacitance_factors()(at, C.copy(), 3) == INACCURATE
     assert at.number["culprit"] == 17

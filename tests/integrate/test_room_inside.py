@@ -20,7 +20,7 @@ FURTHEST = 10.0
 
 
 INDEX = (
-    "differential", "quadrature", "watched", "fades", "diagonal_slope", "diagonal_mass", "position_of", "holds",
+    "differential", "quadrature", "monitored", "fades", "diagonal_slope", "diagonal_mass", "position_of", "holds",
     "hold_mass", "hold_mass_row", "hold_mass_column", "is_stiff", "of_balance", "unweighed",
 )  # fmt: skip
 
@@ -53,7 +53,7 @@ def test_the_defect_of_a_dense_output_is_its_residual_through_the_factors(seed, 
     n, h, t = 3, 0.2, 1.5
     J, M = rng.normal(size=(n, n)), rng.normal(size=(n, n))
     y, y_end, D = rng.normal(size=n), rng.normal(size=n), rng.normal(size=(3, n))
-    at = system(J, M, {"t": t}, y=y, y_end=y_end, D=D.ravel(), watched=[1, 0, 1])
+    at = system(J, M, {"t": t}, y=y, y_end=y_end, D=D.ravel(), monitored=[1, 0, 1])
 
     def law(time, place):
         return np.sin(place) + time
@@ -84,7 +84,7 @@ def test_a_speed_whose_bond_has_faded_within_the_step_is_off_by_all_its_slip_and
     """
     c, m, slip, h, gain = 1e9, 2.0, 1e-3, 0.01, 500.0
     at = system(np.array([[-c]]), np.array([[m]]), {"n": 1}, y=[slip], y_end=[slip], D=np.zeros(3), position_of=[0],
-                slope_seen=[0.5 * c], fades=[0], watched=[0])  # fmt: skip
+                slope_seen=[0.5 * c], fades=[0], monitored=[0])  # fmt: skip
 
     def rhs(_t, y, f):
         f[0] = -left * c * y[0]
@@ -97,7 +97,7 @@ def test_a_speed_whose_bond_has_faded_within_the_step_is_off_by_all_its_slip_and
 
 
 @pytest.mark.parametrize(
-    ("slope", "seen", "watched", "position", "asked"),
+    ("slope", "seen", "monitored", "position", "asked"),
     [
         (-1e6, -9e5, 0, 0, 1),
         (-1e6, -1e6, 0, 0, 0),
@@ -107,10 +107,10 @@ def test_a_speed_whose_bond_has_faded_within_the_step_is_off_by_all_its_slip_and
     ],
 )
 def test_asked_are_speeds_that_follow_a_law_which_has_changed_and_are_watched_by_nobody(
-    slope, seen, watched, position, asked
+    slope, seen, monitored, position, asked
 ):
     at = system(np.array([[slope]]), np.array([[1.0]]), {"t": 1.0}, position_of=[position], slope_seen=[seen],
-                fades=[0], watched=[watched])  # fmt: skip
+                fades=[0], monitored=[monitored])  # fmt: skip
     assert room("point.faded.ask_faded", ("",), "d", "b")(at, 0.01) == bool(asked)
     assert at.array["fades"][0] == asked
 

@@ -79,7 +79,7 @@ def algebraic(n, mask, dense):
         return problem, ordering.dense_plan(problem)
     layout = condensing.lay_out(problem)
     order = np.arange(n)
-    return problem, ordering.sparse_plan(problem, layout, condensing.core_entries(problem, layout), order, order)
+    return problem, ordering.sparse_plan(problem, layout, condensing.reduced_entries(problem, layout), order, order)
 
 
 def solved(W, b, dense=True, perturbed=0, units=None):

@@ -119,10 +119,10 @@ def test_a_first_step_of_what_is_straight_or_begins_at_rest_has_no_leading_error
 
 @pytest.mark.parametrize("adaptive", [0, 1])
 def test_after_an_accepted_step_the_next_is_as_long_as_the_method_says_unless_steps_are_fixed(adaptive):
-    at = memory({"adaptive": adaptive, "h_next": 0.5, "error": 0.25, "retried": 3, "mended": 1})
+    at = memory({"adaptive": adaptive, "h_next": 0.5, "error": 0.25, "retried": 3, "reinitialised": 1})
     ended()(at, 0.125)
     assert at.number["h_next"] == (0.125 if adaptive else 0.5)
-    assert (at.number["retried"], at.number["mended"], at.number["last_error"]) == (0, 0, 0.25)
+    assert (at.number["retried"], at.number["reinitialised"], at.number["last_error"]) == (0, 0, 0.25)
 
 
 @pytest.mark.parametrize("real", [0.0, 5.0])

@@ -106,8 +106,8 @@ def test_guards_that_were_never_below_zero_settle_the_start_unless_it_is_settled
         at.point(name, np.array(values), np.float64)
     at.point("row_side", np.zeros(4), np.int64)
     at.point("differential", np.ones(1), np.int64)
-    assert room("events.given_up.mend_start", ("",), "d", "i")(at, 0.5) == GO_ON
-    assert at.number["rejected_companion"] == 1
+    assert room("events.given_up.settle_inconsistent_start", ("",), "d", "i")(at, 0.5) == GO_ON
+    assert at.number["rejected_inconsistent"] == 1
     if judged and slope < 0.0:
         assert at.number["h_next"] == 0.05
         assert at.number["phase"] != SETTLE

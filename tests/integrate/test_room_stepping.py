@@ -132,7 +132,7 @@ class Contacts:
             "zones": self.zones, "own_kind": np.arange(contacts) if kinds is None else kinds,
             **{name: np.zeros(KNOWN_ZONES * contacts) for name in ("known", "known_of_kind", "known_constants")},
             **{name: np.zeros(contacts) for name in ("zones_linearised", "exchanged_machines", "only_kinks")},
-            "known_slopes": np.zeros(KNOWN_ZONES * len(found["slope"])), "holds": np.zeros(n), "caught": np.zeros(n),
+            "known_slopes": np.zeros(KNOWN_ZONES * len(found["slope"])), "holds": np.zeros(n), "captured": np.zeros(n),
             "known_masses": np.zeros(KNOWN_ZONES * len(found["mass"])), "of_algebraic_speed": np.zeros(n),
         }  # fmt: skip
         of_reals = ("known_slopes", "known_masses", "known_constants")
@@ -209,7 +209,7 @@ def test_an_exchange_redoes_the_columns_that_use_the_row_and_no_others():
         network.evaluate()
     network.zones[:] = (1, 1)
     assert exchanged()(network.at)
-    assert 0 < network.at.number["n_redone"] < 0.5 * network.at.number["n_core"]
+    assert 0 < network.at.number["n_redone"] < 0.5 * network.at.number["n_reduced"]
     network.check(rng)
 
 
@@ -443,7 +443,7 @@ def test_slip_that_a_search_leaves_in_a_row_that_was_caught_is_in_its_residual()
     h = 0.1
     at = memory(
         {"n": 3, "n_hold_mass": 1, "n_jacobian": 3, "n_mass": 3, "theta_now": 0.5, "dense": 1},
-        y=[1.0, 0.0, 0.0], y_end=[0.0, 0.0, 10.0], move=[-0.5, 0.0, 5.0], holds=[0, 1, 0], caught=[0, 1, 0],
+        y=[1.0, 0.0, 0.0], y_end=[0.0, 0.0, 10.0], move=[-0.5, 0.0, 5.0], holds=[0, 1, 0], captured=[0, 1, 0],
         hold_mass_row=[1], of_algebraic_speed=np.zeros(3), differential=[1, 0, 1], controlled=np.zeros(3),
         quadrature=np.zeros(3), row_scale=[0.0, 1.0, 1.0], mass_starts=[0, 2, 2, 3], mass_rows=[0, 1, 2],
         mass_columns=[0, 0, 2], mass=np.ones(3), jacobian_starts=np.zeros(4), jacobian_rows=np.zeros(3),

@@ -157,16 +157,16 @@ def test_rows_in_which_the_mass_matrix_has_an_entry_hold_and_lose_their_slopes()
     """Row 2 holds anew, row 3 held and does no more, row 4 holds an algebraic speed on a surface that moves."""
     at = memory(
         {"n": 5, "n_hold_mass": 3, "n_hold_slope": 3, "n_jacobian": 3, "n_mass": 3}, holds=[0, 0, 0, 1, 1],
-        caught=np.zeros(5), jacobian=[7.0, 8.0, 9.0], ft=[0.0, 0.0, 0.0, 0.0, 3.0], hold_mass=[0, 1, 2],
+        captured=np.zeros(5), jacobian=[7.0, 8.0, 9.0], ft=[0.0, 0.0, 0.0, 0.0, 3.0], hold_mass=[0, 1, 2],
         hold_mass_row=[2, 3, 4], hold_mass_column=[0, 0, 1], mass=[1.0, 0.0, -1.0], differential=[1, 0, 0, 0, 0],
         of_algebraic_speed=np.zeros(5), hold_slope=[0, 1, 2], hold_slope_row=[2, 3, 4],
     )  # fmt: skip
     room("stepping.linearise.find_holds", ("point", "linear.matrices", "stepping.exchange"))(at)
     assert at.array["holds"].tolist() == [0, 0, 1, 0, 1]
-    assert at.array["caught"].tolist() == [0, 0, 1, 0, 0]
+    assert at.array["captured"].tolist() == [0, 0, 1, 0, 0]
     assert at.array["of_algebraic_speed"].tolist() == [0, 0, 0, 0, 1]
     assert at.array["jacobian"].tolist() == [0.0, 8.0, 0.0]
-    assert [at.number[name] for name in ("newly_held", "support_accelerates", "algebraic_speeds")] == [1, 1, 1]
+    assert [at.number[name] for name in ("any_captured", "support_accelerates", "algebraic_speeds")] == [1, 1, 1]
 
 
 @pytest.mark.parametrize("seed", range(10))

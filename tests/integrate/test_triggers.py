@@ -168,7 +168,7 @@ def test_a_guard_found_positive_without_having_crossed_is_settled_from_the_start
 
     outcome = integrate(clock(guard, guard_tolerance=1e-9), Run(stop=1.0))
     assert outcome.ok, outcome.sentence
-    assert outcome.counters.rejected_companion == 1
+    assert outcome.counters.rejected_inconsistent == 1
     assert outcome.events["t"].tolist() == [0.0]
 
 

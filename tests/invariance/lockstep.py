@@ -29,7 +29,7 @@ AT_LIMIT, MOST_SHOWN = 1e-9, 15
 """Guards nearer to zero than this are shown, but no more than so many."""
 GROWN = 10.0
 """What grows by this factor in one step is told."""
-CAUSES = ("rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
+CAUSES = ("rejected_error", "rejected_nan", "rejected_inconsistent", "rejected_switch", "rejected_cycling",
           "rejected_diverged", "rejected_singular")  # fmt: skip
 FACTS = (
     "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now",
@@ -65,13 +65,13 @@ def tries(model: Any) -> Iterator[Try]:
     while going.served:
         going.go_on(1)
         if going.status in (Status.PAUSED, Status.FINISHED) or not going.served:
-            now, memory = {name: int(going.scope.memory.number[name]) for name in before}, going.scope.memory
-            yield _seen(memory, going.scope, tuple(name for name in before if now[name] > before[name]))
+            now, memory = {name: int(going.active.memory.number[name]) for name in before}, going.active.memory
+            yield _seen(memory, going.active, tuple(name for name in before if now[name] > before[name]))
             before = now
 
 
-def _seen(memory: Any, scope: Any, said: tuple[str, ...]) -> Try:
-    problem, number, array = scope.problem, memory.number, memory.array
+def _seen(memory: Any, active: Any, said: tuple[str, ...]) -> Try:
+    problem, number, array = active.problem, memory.number, memory.array
     names, machines = problem.unknown_names, problem.machine_names
     of_guard = {
         f"{name}@{machines[z] if z >= 0 else '-'}": (float(a), float(b))

@@ -22,7 +22,7 @@ from unittest import mock
 import numpy as np
 
 import fairlead
-from fairlead.integrate.parts import Scope
+from fairlead.integrate.parts import ActiveSubsystem
 from tests.invariance.outcome import of_result, write
 from tests.invariance.reordering import permuted
 from tests.invariance.settings import in_force
@@ -43,15 +43,15 @@ def play(scene: str, out: str, times: int = 1, order: int | None = None, nudge: 
 @contextlib.contextmanager
 def moved(nudge: float, seed: int) -> Iterator[None]:
     """Runs begin with each unknown moved this way or that by `nudge` of itself and of the size that counts as 1."""
-    begin = Scope.__init__
+    begin = ActiveSubsystem.__init__
 
-    def begin_moved(self: Scope, *given: Any) -> None:
+    def begin_moved(self: ActiveSubsystem, *given: Any) -> None:
         begin(self, *given)
         accuracy = given[1].accuracy or 1.0
         y, nominal = self.whole.array["y"], self.whole.array["absolute"] / accuracy
         y += nudge * np.random.default_rng(seed).choice((-1.0, 1.0), len(y)) * (np.abs(y) + nominal)
 
-    with mock.patch.object(Scope, "__init__", begin_moved) if nudge else contextlib.nullcontext():
+    with mock.patch.object(ActiveSubsystem, "__init__", begin_moved) if nudge else contextlib.nullcontext():
         yield
 
 

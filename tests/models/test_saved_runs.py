@@ -44,7 +44,7 @@ def to_the_end(going, told, attempts=7):
     while going.served:
         going.go_on(attempts)
     assert going.status == 0, going.status
-    whole = going.scope.finish()
+    whole = going.active.finish()
     return [*told.since(count), whole.array["y"].tobytes(), int(whole.number["steps"])]
 
 
@@ -59,7 +59,7 @@ def taken_back_and_cloned(problem, run, slices, attempts=7):
     going.restore(saved)
     assert to_the_end(going, told) == once
     other, notes = begin(problem, run)
-    assert other.scope.memory.address != going.scope.memory.address
+    assert other.active.memory.address != going.active.memory.address
     other.restore(saved)
     going.restore(saved)
     found = [None, None]
@@ -92,7 +92,7 @@ def test_so_does_a_run_with_controllers_in_plain_python(scene, library, engine):
     """What they remember is copied with it: this one counts, and pushes by all it has seen."""
     system = scene(SCENE, (library(PULLER + COUNTING),)).system
     going = taken_back_and_cloned(system, Run(stop=1.0, engine=engine), slices=1)
-    assert going.scope.problem.controllers[0].known()[0].history
+    assert going.active.problem.controllers[0].known()[0].history
 
 
 @ENGINES
@@ -102,11 +102,11 @@ def test_so_does_a_run_of_which_a_part_moves(tmp_path, engine):
     path.write_text(IDLE.replace("blocks: 1000", "blocks: 250"), encoding="utf-8")
     system, run = fairlead.load(path).system, Run(stop=3.0, engine=engine, every=0.1)
     slices, (going, _) = 0, begin(system, run)
-    while going.scope.part is None:
+    while going.active.part is None:
         going.go_on(7)
         slices += 1
     going = taken_back_and_cloned(system, run, slices=slices + 2)
-    assert going.scope.whole.number["partial_steps"] > 0
+    assert going.active.whole.number["partial_steps"] > 0
 
 
 @pytest.mark.parametrize("after", [0, 1])
@@ -114,12 +114,12 @@ def test_so_does_a_run_that_has_chosen_or_is_to_choose_fresh_pivots(scene, libra
     """Saved before the replan, which is taken twice; and behind it, where its pivots go along."""
     system, run = scene(lost_pivots(), (library(PAIR),)).system, Run(stop=1.0)
     slices, (going, _) = 0, begin(system, run)
-    while going.served and going.scope.whole.number["replans"] == 0:
+    while going.served and going.active.whole.number["replans"] == 0:
         going.go_on(3)
         slices += 1
     assert going.served
     going = taken_back_and_cloned(system, run, slices=slices if after else slices - 2, attempts=3)
-    assert going.scope.whole.number["replans"] == 1
+    assert going.active.whole.number["replans"] == 1
 
 
 def test_there_is_no_address_in_an_arena():
@@ -129,7 +129,7 @@ def test_there_is_no_address_in_an_arena():
         going, _ = begin(system, Run(stop=2.0))
         for _ in range(3):
             going.go_on(10)
-        arenas.append(going.save().scope.whole.arena)
+        arenas.append(going.save().active.whole.arena)
     assert arenas[0].tobytes() == arenas[1].tobytes()
 
 

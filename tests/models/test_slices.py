@@ -10,8 +10,8 @@ from fairlead.integrate import Run, integrate, parts, prepare, underway
 from tests.integrate.problems import belt_block, falling_ball
 from tests.integrate.test_budgets import chattering_machine
 from tests.models.lost_pivots import PAIR, lost_pivots
+from tests.models.test_active_subsystem_at_random import network
 from tests.models.test_names_say_nothing import pads
-from tests.models.test_narrowing_at_random import network
 from tests.models.test_positions import engine as engine_of
 from tests.unit.test_controllers import COUNTING, PULLER, SCENE
 

@@ -3,7 +3,7 @@
 import pytest
 
 from fairlead.engine import engine_of
-from fairlead.system.active.timed_limits import timed_limits
+from fairlead.system.timed_limits import timed_limits
 
 SWING = "{sine: {amplitude: 9.8, frequency: 500 Hz, offset: 10}}"
 CORNERS = "{table: [[0, 10], [0.1, 2], [0.2, 10]]}"

@@ -69,7 +69,7 @@ MARGINS = [
 @pytest.mark.parametrize(("margin", "kept", "machines"), MARGINS)
 def test_what_moves_is_kept_with_a_margin_of_equations(row, margin, kept, machines):
     system, y = row("a")
-    moving = system.narrowing.moving(0.0, y, margin, 0.95)
+    moving = system.subsystem.moving(0.0, y, margin, 0.95)
     assert named(system.unknown_names, moving.kept) == kept | LEDGER
     assert [system.machine_names[k] for k in moving.machines] == [f"under_{name}" for name in machines]
 
@@ -78,10 +78,10 @@ def test_what_moves_is_kept_with_a_margin_of_equations(row, margin, kept, machin
 def test_the_boundary_is_what_holds_the_blocks_that_are_left_out(row, margin, boundary):
     """With a margin of one b is kept, but the force under c is left out, which varies as soon as b lets go."""
     system, y = row("a")
-    moving = system.narrowing.moving(0.0, y, margin, 0.95)
+    moving = system.subsystem.moving(0.0, y, margin, 0.95)
     found = named(system.machine_names, moving.boundary)
     assert found == {f"under_{name}" for name in boundary}
-    part = system.narrowing.part(0.0, y, moving)
+    part = system.subsystem.part(0.0, y, moving)
     inside = [system.machine_names[k] for k in part.machines]
     assert named(inside, part.boundary) == found & set(inside)
 
@@ -89,20 +89,20 @@ def test_the_boundary_is_what_holds_the_blocks_that_are_left_out(row, margin, bo
 def test_a_whole_of_which_too_much_moves_is_left_whole(row):
     """Of 14 unknowns 11 stay with a margin of two: three blocks and the ledger."""
     system, y = row("a")
-    assert system.narrowing.moving(0.0, y, 2, 11 / system.n) is not None
-    assert system.narrowing.moving(0.0, y, 2, 10.9 / system.n) is None
-    assert system.narrowing.moving(0.0, y, 3, 0.95) is None
+    assert system.subsystem.moving(0.0, y, 2, 11 / system.n) is not None
+    assert system.subsystem.moving(0.0, y, 2, 10.9 / system.n) is None
+    assert system.subsystem.moving(0.0, y, 3, 0.95) is None
 
 
 @pytest.mark.parametrize("sliding", ["abcd", "acd"])
 def test_where_nearly_all_slides_nothing_is_left_out(row, sliding):
     system, y = row(*sliding)
-    assert system.narrowing.moving(0.0, y, 0, 0.9) is None
+    assert system.subsystem.moving(0.0, y, 0, 0.9) is None
 
 
 def test_from_the_middle_motion_spreads_to_both_sides(row):
     system, y = row("b")
-    kept = named(system.unknown_names, system.narrowing.moving(0.0, y, 0, 0.95).kept)
+    kept = named(system.unknown_names, system.subsystem.moving(0.0, y, 0, 0.95).kept)
     assert kept == {"b.x", "b.v", "a.v", "c.v", "under_a.force", "under_b.force", "under_c.force"} | LEDGER
 
 
@@ -111,7 +111,7 @@ def test_the_balances_of_the_part_have_what_rests_as_numbers(row, margin):
     """Of free contact forces: what springs pull, between blocks of which some are left out away from zero."""
     places = {"a": 0.01, "b": -0.02, "c": 0.03, "d": -0.04}
     system, y = row("a", **places)
-    part = system.narrowing.part(0.0, y, system.narrowing.moving(0.0, y, margin, 0.95))
+    part = system.subsystem.part(0.0, y, system.subsystem.moving(0.0, y, margin, 0.95))
     mine = y[part.unknowns]
     names = [system.unknown_names[k] for k in part.unknowns]
     mine[names.index("a.x")] = places["a"] = 0.05  # moved on since it was cut
@@ -132,5 +132,5 @@ def test_a_system_in_which_nothing_holds_has_nothing_to_leave_out(scene):
         text = text.replace(f"under_{name}.b, ", "")
     text = text.replace("      - [floor.flange, under_a.a, under_b.a, under_c.a, under_d.a]\n", "")
     text = text.replace("      floor: {type: Ground}\n", "")
-    assert not scene(text).system.instance().narrowing.possible
-    assert scene(ROW).system.instance().narrowing.possible
+    assert not scene(text).system.instance().subsystem.possible
+    assert scene(ROW).system.instance().subsystem.possible

@@ -45,8 +45,8 @@ def wound(scene, library, monkeypatch):
         system = scene(text.replace("start: -34 m", f"start: {6 - length} m"), (library(CLASSES),)).system
         outcome = integrate(system, Run(stop=0.1))
         system = outcome.problem
-        moving = system.narrowing.moving(outcome.t, outcome.y, 12, 0.5)
-        return system, outcome.t, outcome.y, system.narrowing.part(outcome.t, outcome.y, moving)
+        moving = system.subsystem.moving(outcome.t, outcome.y, 12, 0.5)
+        return system, outcome.t, outcome.y, system.subsystem.part(outcome.t, outcome.y, moving)
 
     return make
 
@@ -90,7 +90,7 @@ def test_the_equations_of_the_part_are_those_of_the_whole_wherever_it_goes(wound
 def test_what_is_carried_gets_the_slip_with_which_its_bond_accelerates_it(wound):
     """Given back to the whole, a node deep on the drum has the acceleration of its place on the rim."""
     system, t, y, part = wound()
-    part.give_back(t, y)
+    part.prolong(t, y)
     f = np.zeros(system.n)
     call(system, "rhs", t, y, f)
     numbering = system.numbering
@@ -179,7 +179,7 @@ def partition(system, speed):
             place = block.kernel.structure.inputs.index("port:node:x")
             inside = y[block.in_index[:, place]] < block.parameters[:, block.kernel.structure.parameters.index("place")]
             begin.zones[block.machines[:, 0]] = np.where(inside, 0, 1)
-    moving = begin.narrowing.moving(0.0, y, 12, 0.5)
+    moving = begin.subsystem.moving(0.0, y, 12, 0.5)
 
     def named(chosen):
         """Paths of these instances, block after block."""

@@ -7,13 +7,13 @@ which do not.
 
 from __future__ import annotations
 
-START, TRY, RECORD, ARRIVE, SETTLE, WAKE = 0, 1, 2, 3, 4, 5
+START, TRY, RECORD, ARRIVE, SETTLE, SETTLE_WHOLE = 0, 1, 2, 3, 4, 5
 
 NONE_DUE, SAMPLE_DUE, SETTLING_FOR_IT = 0, 1, 2
 """Of the first sample (first_sample.py): there is none any more, it is due, the point is being settled for it."""
 
 FINISHED = 0
-PAUSED, BUFFER_FULL, REPLAN, NARROW, WIDEN = -1, -2, -3, -4, -5
+PAUSED, BUFFER_FULL, REPLAN, RESTRICT, REACTIVATE = -1, -2, -3, -4, -5
 STEP_FLOOR, NOT_FINITE, NOT_SETTLED, INCONSISTENT, SINGULAR_MATRIX, CHATTER = 1, 2, 3, 4, 5, 6
 MAX_STEPS, MAX_EVENTS, MAX_WALL, INTERRUPTED, REBOUND_RUBS, ENDED, GIVEN_APART = 7, 8, 9, 10, 11, 12, 13
 """Statuses: how a run ended, or below zero what Python is to do before it goes on. The loop returns them,

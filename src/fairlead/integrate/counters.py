@@ -11,7 +11,7 @@ COUNTS = (
     "steps",
     "rejected_error",
     "rejected_nan",
-    "rejected_companion",
+    "rejected_inconsistent",
     "rejected_switch",
     "rejected_cycling",
     "rejected_diverged",
@@ -42,7 +42,7 @@ class Counters:
     """Steps tried in vain because their error was too large."""
     rejected_nan: int
     """The same because it was not a finite number."""
-    rejected_companion: int
+    rejected_inconsistent: int
     """Steps given up because a guard turned out positive without having crossed."""
     rejected_switch: int
     """Steps taken again to end at a switch. Where steps end at every switch, as those of `rodas`: the piece up to there
@@ -83,7 +83,7 @@ class Counters:
     def rejected(self) -> int:
         """Steps tried in vain, for any reason."""
         return (
-            self.rejected_error + self.rejected_nan + self.rejected_companion + self.rejected_switch + self.unsolved
+            self.rejected_error + self.rejected_nan + self.rejected_inconsistent + self.rejected_switch + self.unsolved
         )
 
     @property

@@ -179,11 +179,11 @@ class Facts(Protocol):
         """Longest step [s]: what swings in time alone shows in no unknown while all rests."""
 
 
-class Narrowed(Protocol):
+class WithSubsystem(Protocol):
     """What a problem at work knows besides."""
 
     @property
-    def narrowing(self) -> Any:
+    def subsystem(self) -> Any:
         """What tells what moves and cuts it out as a problem of its own that records for all (parts.py); None: nothing.
 
         possible            whether that may be asked
@@ -191,7 +191,7 @@ class Narrowed(Protocol):
                             that is not worth while beside the part in force (or None)
         looked              what the last look found: all that it remembers
         part(t, y, that)    .problem, .unknowns, .machines, .guards (places in the whole), .boundary (1 for machines
-                            of the part whose change sets more in motion), .sure; or None. give_back(t, y) puts into
+                            of the part whose change sets more in motion), .sure; or None. prolong(t, y) puts into
                             the y of the whole what follows from the part, carry(v) into such a vector the slopes of
                             what is carried; placed(piece, whole) is the part at work in other memory
         """
@@ -208,7 +208,7 @@ class Plain:
     longest_step = np.inf
     ledger = (-1, -1)
     held_too_much: Sequence[str] = ()
-    narrowing = None
+    subsystem = None
 
     @property
     def mean(self) -> Floats:

@@ -29,22 +29,22 @@ from fairlead.integrate.codes import (
     BUFFER_FULL,
     FINISHED,
     GO_ON,
-    NARROW,
     PAUSED,
+    REACTIVATE,
     RECORD,
+    RESTRICT,
     SETTLE,
+    SETTLE_WHOLE,
     SINGULAR_MATRIX,
     STEP_FLOOR,
     TRY,
-    WAKE,
-    WIDEN,
 )
 from fairlead.integrate.events.arrival import arrive, settle_here, start
 from fairlead.integrate.events.pace import end_attempts, length_by_control
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
 from fairlead.integrate.memory.foreign import compiled, memory_at
-from fairlead.integrate.one_step import OneStep, mend_point, trial_of
+from fairlead.integrate.one_step import OneStep, reinitialise, trial_of
 from fairlead.integrate.record.rows import record_piece, there_is_room
 
 
@@ -103,7 +103,7 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                 attempts -= 1
                 status = attempt(m)
                 if status > FINISHED and begins_without_answer(problem, run, status):
-                    mend_point(m)
+                    reinitialise(m)
                     status = GO_ON
                 if run.phase == RECORD:
                     end_attempts(run, next_length(m))
@@ -116,7 +116,7 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
                 status = settle_here(m, share, order)
                 if status == GO_ON and run.phase == TRY:
                     settled(m)
-            elif run.phase == WAKE:
+            elif run.phase == SETTLE_WHOLE:
                 status = settle_anew(problem, run, point, events)
             else:
                 status = start(problem, run, point, events)
@@ -129,13 +129,13 @@ def loop_of(method: Method) -> Callable[[int, int], int]:
 @compiled
 def ready(problem, run, point, recorder):
     """GO_ON before a trial step, or what has to be done first."""
-    if run.woken == 1:
-        return WIDEN
+    if run.boundary_switched == 1:
+        return REACTIVATE
     if point.t >= run.stop:
         return FINISHED
     if not there_is_room(problem, recorder):
         return BUFFER_FULL
-    return NARROW if run.steps >= run.narrow_at else GO_ON
+    return RESTRICT if run.steps >= run.restrict_at else GO_ON
 
 
 @compiled

@@ -16,9 +16,15 @@ from typing import Any, NamedTuple
 
 from fairlead.integrate.codes import GO_ON, INACCURATE, NOT_FINITE, REPLAN, SINGULAR, SINGULAR_MATRIX, STEP_FLOOR
 from fairlead.integrate.events.chatter import dwell_here
-from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
+from fairlead.integrate.events.crossing import CROSSING, INCONSISTENT_START, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
-from fairlead.integrate.events.given_up import TOO_LONG, mend_start, settle_at_start, take_again, take_much_shorter
+from fairlead.integrate.events.given_up import (
+    TOO_LONG,
+    settle_at_start,
+    settle_inconsistent_start,
+    take_again,
+    take_much_shorter,
+)
 from fairlead.integrate.events.pace import (
     DOUBT,
     accept,
@@ -47,8 +53,8 @@ NEGLIGIBLE = 1e-6
 others would else be asked of."""
 MOST_KEPT = 0.8
 """Share of a step that is taken again at most."""
-STUBBORN = 6
-"""Rejections in a row that call for `mend_point`."""
+REINITIALISE_AFTER = 6
+"""Rejections in a row that call for `reinitialise`."""
 
 
 class OneStep(NamedTuple):
@@ -104,7 +110,7 @@ def judge_end(problem, run, point, recorder, status):
 def judge_inside(m, h):
     """Error of the dense output, where the end of a step does not tell."""
     problem, run, point, linear, method = m.problem, m.run, m.point, m.linear, m.method
-    if method.n_watched > 0 and run.adaptive == 1:
+    if method.n_monitored > 0 and run.adaptive == 1:
         find_midpoint_defect(problem, point, linear, method, h)
         run.error = max(run.error, weighted_norm(point, point.at_error_vector))
     if problem.n_accelerated > 0 and run.adaptive == 1:
@@ -120,8 +126,8 @@ def up_to_crossing(m, h):
     found = find_first_crossing(m, h)
     if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, m.point, guards, h):
         return take_much_shorter(run, guards, h)
-    if found == COMPANION:
-        return mend_start(m, h)
+    if found == INCONSISTENT_START:
+        return settle_inconsistent_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and run.adaptive == 1 and piece_is_rough(m, h):
         return take_piece(m, h)
     recorder.any_stiff = mark_stiff(problem, m.linear.matrices, recorder, h)
@@ -227,8 +233,8 @@ def reject(m, h, status):
     else:
         run.rejected_nan += 1
     take_again(run, step_after_rejection(run, h), TOO_LONG)
-    if run.retried == STUBBORN and problem.n_algebraic > 0 and run.mended == 0 and status != SINGULAR:
-        mend_point(m)
+    if run.retried == REINITIALISE_AFTER and problem.n_algebraic > 0 and run.reinitialised == 0 and status != SINGULAR:
+        reinitialise(m)
         return GO_ON
     if run.adaptive == 1 and run.h_next >= smallest_step(run, point):
         return GO_ON
@@ -238,12 +244,12 @@ def reject(m, h, status):
 
 
 @compiled
-def mend_point(m):
+def reinitialise(m):
     """Make the point consistent by a settlement that fires nothing, once until the next accepted step.
 
     An algebraic unknown at the end of a step is right within the error of the step. Where it amplifies the
     others that may be many weights: the next step then begins with a jump that no shorter step makes smaller.
     """
-    m.run.mended = 1
+    m.run.reinitialised = 1
     m.events.guards.n_fired = 0
     settle_at_start(m)

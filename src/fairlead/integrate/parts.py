@@ -1,9 +1,9 @@
 """What the loop works on: the whole problem, or the part of it that moves.
 
-A problem that can say what is at rest (`narrowing`, see facts.py) is cut down to what moves, with a margin, when
-that is much less; and woken when a contact at the boundary of the part lets go. Steps, switches and error control are
-those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so that two
-runs do the same.
+A problem that can say what is at rest (`subsystem`, facts.py) is cut down to what moves, with a margin, when that is
+much less. The whole is reactivated when a contact at the boundary of the part lets go. Steps, switches and error
+control are those of the whole, for what rests has no error. When to look goes by steps counted, never by a clock, so
+that two runs do the same.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fairlead.integrate.codes import TRY, WAKE
+from fairlead.integrate.codes import SETTLE_WHOLE, TRY
 from fairlead.integrate.counters import COUNTS
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory.arena import Memory, State
@@ -40,8 +40,8 @@ FILL = ctypes.CFUNCTYPE(None, ctypes.c_int64, ctypes.c_void_p)
 BLOCKED = 1e300
 
 CARRIED = (
-    "phase", "crossed", "companion", "judged", "landing", "retried", "mended", "quadratures_off", "grid_next", "stalls",
-    "total_events", "stop_asked", "failed", "localising", "locates", "damps", "always_locates",
+    "phase", "crossed", "inconsistent_start", "judged", "landing", "retried", "reinitialised", "quadratures_off",
+    "grid_next", "stalls", "total_events", "stop_asked", "failed", "localising", "locates", "damps", "always_locates",
     "locates_for", "support_accelerates", "t", "h", "h_wanted", "h_next",
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
@@ -60,7 +60,7 @@ BY_MACHINE = (
 
 
 OWN = ("_pause", "_margin", "_since", "_seen", "_switched")
-"""What a Scope itself knows of a run."""
+"""What an ActiveSubsystem itself knows of a run."""
 
 
 class SavedPart(NamedTuple):
@@ -72,7 +72,7 @@ class SavedPart(NamedTuple):
     remembered: Any
 
 
-class ScopeState(NamedTuple):
+class SubsystemState(NamedTuple):
     """Where a run was: the whole, the part in force, and what the looks at it have shown."""
 
     whole: State
@@ -82,7 +82,7 @@ class ScopeState(NamedTuple):
     looked: Any
 
 
-class Scope:
+class ActiveSubsystem:
     """The problem and the memory the loop works on, and the whole that they stand for."""
 
     def __init__(self, problem: Problem, run: Run, tableau: Tableau) -> None:
@@ -96,34 +96,34 @@ class Scope:
         self.part: Any = None
         n = len(problem.initial)
         able = self._engine.works_on_parts and n >= LEAST
-        self.narrowing: Any = self.problem.narrowing if able else None
+        self.subsystem: Any = self.problem.subsystem if able else None
         self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
         self._pause, self._margin, self._since = self._cost, MARGIN, 0
         self._seen: Any = None
         self._switched = np.zeros(len(problem.zones), dtype=np.int64)
-        able = self.narrowing is not None and self.narrowing.possible
+        able = self.subsystem is not None and self.subsystem.possible
         able = able and bool(problem.callbacks.get("outputs"))  # else unknowns are recorded, and a part has fewer
-        self.whole.number["narrow_at"] = self._cost if able else NEVER_LOOK
+        self.whole.number["restrict_at"] = self._cost if able else NEVER_LOOK
 
-    def look(self) -> None:
+    def restrict(self) -> None:
         """See whether less would do; where it would have done since the last look, take less."""
         steps, number = int(self.memory.number["steps"]), self.whole.number
-        self._spread()
+        self._prolong()
         switched = self.whole.array["switches_by_machine"].copy()
         blocked = number["t_release"] < BLOCKED  # a machine that is kept from switching is not at rest
         t, y = float(self.whole.number["t"]), self.whole.array["y"]
-        found = None if blocked else self.narrowing.moving(t, y, self._margin, MOST, self.part)
+        found = None if blocked else self.subsystem.moving(t, y, self._margin, MOST, self.part)
         sure = found is not None and found.sure
         if self.part is not None:
             share = SURELY_FEWER if sure else FEWER
             fewer = found is not None and np.count_nonzero(found.kept) < share * len(self.part.unknowns)
-            self.memory.number["narrow_at"] = steps + 2 * (steps - self._since) + self._cost
+            self.memory.number["restrict_at"] = steps + 2 * (steps - self._since) + self._cost
             if fewer and (sure or self._served(switched, self.part)):
                 self._enter(found, steps)
         elif sure or (found is not None and self._served(switched, self._seen)):
             self._enter(found, steps)
         else:
-            number["narrow_at"] = steps + self._pause
+            number["restrict_at"] = steps + self._pause
             self._pause *= 2
         self._seen, self._switched = found, switched
 
@@ -135,23 +135,23 @@ class Scope:
         outside[some.machines] = False
         return not outside.any()
 
-    def wake(self) -> None:
+    def reactivate(self) -> None:
         """Go on with the whole, at the point where the boundary changed."""
-        settled = bool(self.memory.number["woken"])
+        settled = bool(self.memory.number["boundary_switched"])
         steps, sure = int(self.memory.number["steps"]), self.part.sure
-        self._spread()
+        self._prolong()
         self.memory, self.problem, self.part, self._seen = self.whole, self.whole_problem, None, None
         self._make_fresh(self.whole)
         worth = steps - self._since >= WORTH * self._cost
         wait = (WAIT_AGAIN if sure else self._cost) if worth else self._pause
-        self.whole.number["narrow_at"] = steps + wait
+        self.whole.number["restrict_at"] = steps + wait
         self._pause = self._cost if worth else 2 * self._pause
         self._margin = MARGIN if worth else 2 * self._margin
-        self.whole.number["phase"] = WAKE if settled else TRY
+        self.whole.number["phase"] = SETTLE_WHOLE if settled else TRY
 
     def finish(self) -> Memory:
         """The memory of the whole, as it is now."""
-        self._spread()
+        self._prolong()
         return self.whole
 
     def events(self, count: int) -> np.ndarray:
@@ -167,9 +167,9 @@ class Scope:
 
     def _enter(self, moving: Any, steps: int) -> None:
         """Work on what moves from now on."""
-        part = self.narrowing.part(float(self.whole.number["t"]), self.whole.array["y"], moving)
+        part = self.subsystem.part(float(self.whole.number["t"]), self.whole.array["y"], moving)
         if part is None:
-            self.memory.number["narrow_at"], self._pause = steps + self._pause, 2 * self._pause
+            self.memory.number["restrict_at"], self._pause = steps + self._pause, 2 * self._pause
             return
         memory, part = self._memory_of(part)
         for names, places in self._places(part):
@@ -179,7 +179,7 @@ class Scope:
         for name in CARRIED:
             memory.number[name] = self.whole.number[name]
         memory.array["boundary"][:] = part.boundary
-        memory.number["narrowed"], memory.number["narrow_at"] = 1, steps + WORTH * self._cost
+        memory.number["is_part"], memory.number["restrict_at"] = 1, steps + WORTH * self._cost
         self._make_fresh(memory)
         FILL(part.problem.callbacks["mass"])(part.problem.context, memory.array["mass"].ctypes.data)
         self.memory, self.problem, self.part, self._since = memory, part.problem, part, steps
@@ -196,22 +196,22 @@ class Scope:
         plan = new_plan(part.problem, self._engine.plans_contacts)
         return prepare(part.problem, plan, self._run, self._tableau, place)[0], made
 
-    def save(self) -> ScopeState:
+    def save(self) -> SubsystemState:
         """Where the run is, between two steps."""
         part = None
         if self.part is not None:
             part = SavedPart(self.part, self.memory, self.memory.save(), self.part.problem.remembered())
         mine = {name: getattr(self, name) for name in OWN}
-        looked = None if self.narrowing is None else self.narrowing.looked
-        return ScopeState(self.whole.save(), self.whole_problem.remembered(), part, mine, looked)
+        looked = None if self.subsystem is None else self.subsystem.looked
+        return SubsystemState(self.whole.save(), self.whole_problem.remembered(), part, mine, looked)
 
-    def restore(self, state: ScopeState) -> None:
+    def restore(self, state: SubsystemState) -> None:
         """Go to where this run was, or another one of the same problem and settings."""
         self.whole.restore(state.whole)
         self.whole_problem.remind(state.remembered)
         vars(self).update(state.own)
-        if self.narrowing is not None:
-            self.narrowing.looked = state.looked
+        if self.subsystem is not None:
+            self.subsystem.looked = state.looked
         self.memory, self.problem, self.part = self.whole, self.whole_problem, None
         if state.part is not None:
             self.part, self.memory = state.part.part, state.part.memory
@@ -221,7 +221,7 @@ class Scope:
             self.problem = self.part.problem
             self.problem.remind(state.part.remembered)
 
-    def _spread(self) -> None:
+    def _prolong(self) -> None:
         """Give the whole what the part has become; what rests is as it was."""
         if self.part is None:
             return
@@ -232,7 +232,7 @@ class Scope:
                 self.whole.array[name][places] = self.memory.array[name]
         for name in CARRIED:
             self.whole.number[name] = self.memory.number[name]
-        self.part.give_back(float(self.whole.number["t"]), self.whole.array["y"])
+        self.part.prolong(float(self.whole.number["t"]), self.whole.array["y"])
         for name in SLOPES:
             self.part.carry(self.whole.array[name])
 
@@ -243,5 +243,6 @@ class Scope:
     @staticmethod
     def _make_fresh(memory: Memory) -> None:
         """Nothing that was evaluated for another memory holds in this one."""
-        for name in ("jacobian_fresh", "linearised", "core_valid", "factored_h", "woken", "rows", "events"):
+        for name in ("jacobian_fresh", "linearised", "reduced_valid", "factored_h", "boundary_switched", "rows",
+                     "events"):  # fmt: skip
             memory.number[name] = 0

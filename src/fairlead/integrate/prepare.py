@@ -78,8 +78,9 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "pressing_square": len(problem.pressing) ** 2,
         "three_n": 3 * n, "n_plus_1": n + 1, "n_machines_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
-        "perturbed_core": most_perturbed * plan.lengths["n_core"],
-        "n_core_plus_1": plan.lengths["n_core"] + 1, "n_meters_plus_1": plan.lengths["n_meters"] + 1,
+        "perturbed_reduced": most_perturbed * plan.lengths["n_reduced"],
+        "n_reduced_plus_1": plan.lengths["n_reduced"] + 1,
+        "n_quadrature_rows_plus_1": plan.lengths["n_quadrature_rows"] + 1,
         "n_lower": len(plan.arrays.get("lower_rows", ())), "n_upper": len(plan.arrays.get("upper_rows", ())),
     }  # fmt: skip
     given: dict[str, np.ndarray] = {
@@ -205,7 +206,7 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
     own = place(memory.piece)
     check_instance(own)
     write_numbers(memory, plan.numbers | settings(run, tableau) | {"stages": s, "max_passes": passes})
-    write_numbers(memory, {"max_step": _longest_step(run, own), "narrow_at": NEVER_LOOK, "swing_step": NEVER})
+    write_numbers(memory, {"max_step": _longest_step(run, own), "restrict_at": NEVER_LOOK, "swing_step": NEVER})
     point_at_instance(memory, own)
     engine = engine_of(run)
     write_numbers(memory, engine.numbers(run, own))
@@ -216,8 +217,8 @@ def prepare(problem: Problem, plan: Planned, run: Run, tableau: Tableau, place: 
         memory.number["n_guards"] = 0
     make_buffers(memory, own)
     memory.array["y"][:] = own.initial
-    memory.array["watched"][:] = watched(own)
-    memory.number["n_watched"] = int(memory.array["watched"].sum())
+    memory.array["monitored"][:] = monitored(own)
+    memory.number["n_monitored"] = int(memory.array["monitored"].sum())
     memory.array["falls"][:] = falls
     memory.number["falling"] = int(falls.any() and len(set(plan.given["holder"].tolist())) > 2)  # -1 is one
     memory.array["last_toggle"][:] = -NEVER
@@ -322,7 +323,7 @@ def settings(run: Run, tableau: Tableau) -> dict[str, float]:
     }  # fmt: skip
 
 
-def watched(problem: Instance) -> Integers:
+def monitored(problem: Instance) -> Integers:
     """1 for unknowns that may be right at both ends of a step and wrong in between: algebraic and stiff ones."""
     stiff = np.asarray(problem.stiff, dtype=bool) | np.isfinite(problem.cap)
     counts = ~(problem.quadrature | problem.gauge)

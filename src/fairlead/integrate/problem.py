@@ -53,7 +53,7 @@ from numpy.typing import NDArray
 import fairlead.integrate.codes as codes
 from fairlead.integrate.counters import Counters
 from fairlead.integrate.engine import Engine
-from fairlead.integrate.facts import Facts, Narrowed
+from fairlead.integrate.facts import Facts, WithSubsystem
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -161,7 +161,7 @@ class Problem(Facts, Protocol):
         """
 
 
-class Instance(Problem, Narrowed, Protocol):
+class Instance(Problem, WithSubsystem, Protocol):
     """A problem in one run: what the callbacks work on, and what the run chooses."""
 
     @property
@@ -266,8 +266,8 @@ class Status(IntEnum):
     PAUSED = codes.PAUSED
     BUFFER_FULL = codes.BUFFER_FULL
     REPLAN = codes.REPLAN
-    NARROW = codes.NARROW
-    WIDEN = codes.WIDEN
+    RESTRICT = codes.RESTRICT
+    REACTIVATE = codes.REACTIVATE
     STEP_FLOOR = codes.STEP_FLOOR
     NOT_FINITE = codes.NOT_FINITE
     NOT_SETTLED = codes.NOT_SETTLED

@@ -47,14 +47,14 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     except KeyboardInterrupt:
         going.status = Status.INTERRUPTED
         going.flush()
-    going.scope.problem.raise_if_failed()
-    scope, status = going.scope, going.status
+    going.active.problem.raise_if_failed()
+    active, status = going.active, going.status
     if ends:
         status, (t, sentence, culprits) = Status.ENDED, ends[0]
     else:
-        t, culprits = float(scope.memory.number["t"]), culprits_of(status, scope.memory, scope.problem)
-        sentence = sentence_of(status, scope.memory, scope.problem, run, culprits)
-    memory, own = scope.finish(), scope.whole_problem
+        t, culprits = float(active.memory.number["t"]), culprits_of(status, active.memory, active.problem)
+        sentence = sentence_of(status, active.memory, active.problem, run, culprits)
+    memory, own = active.finish(), active.whole_problem
     return Outcome(
         status=status,
         sentence=sentence,
@@ -63,7 +63,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         culprits=culprits,
         chattering=tuple(own.machine_names[z] for z in np.flatnonzero(memory.array["chatters"]).tolist()),
         counters=count(memory),
-        begun=scope.whole.array["begun"].copy(),
+        begun=active.whole.array["begun"].copy(),
         most_moved=float(memory.number["most_moved"]),
         lost=memory.array["lost"].copy(),
         not_given_back=memory.array["not_given_back"].copy(),

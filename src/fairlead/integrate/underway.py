@@ -17,21 +17,21 @@ from fairlead.integrate.codes import SETTLE
 from fairlead.integrate.engines import engine_of
 from fairlead.integrate.linear.replan import replan
 from fairlead.integrate.machine_code import compiled_loop
-from fairlead.integrate.parts import Scope, ScopeState
+from fairlead.integrate.parts import ActiveSubsystem, SubsystemState
 from fairlead.integrate.problem import Block, OnBlock, Problem, Run, Status
 from fairlead.integrate.rodas.tableau import TABLEAUS
 
 SLICE = 0.05
 """Seconds between two returns to Python, aimed at."""
 FIRST_ATTEMPTS = 16
-SERVED = (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN, Status.NARROW, Status.WIDEN)
+SERVED = (Status.PAUSED, Status.BUFFER_FULL, Status.REPLAN, Status.RESTRICT, Status.REACTIVATE)
 """Returns to Python after which the loop goes on."""
 
 
 class Saved(NamedTuple):
     """Where a run was."""
 
-    scope: ScopeState
+    active: SubsystemState
     status: Status
     replanned_at: int
 
@@ -42,10 +42,10 @@ class Underway:
     def __init__(self, problem: Problem, run: Run, take: OnBlock) -> None:
         """Begin; nothing is evaluated yet."""
         self.run, self.take, self.problem = run, take, problem
-        self.scope = Scope(problem, run, TABLEAUS[run.method])
+        self.active = ActiveSubsystem(problem, run, TABLEAUS[run.method])
         self.engine = engine_of(run)
         make = self.engine.loop
-        self._advance = make(self.scope.problem, run, self.scope.memory) if make else compiled_loop(self.engine)
+        self._advance = make(self.active.problem, run, self.active.memory) if make else compiled_loop(self.engine)
         self.status, self._attempts, self._replanned_at = Status.PAUSED, FIRST_ATTEMPTS, -1
         self.wall = self.cpu = 0.0
         """Seconds spent inside the loop, and on cutting out what moves."""
@@ -58,19 +58,19 @@ class Underway:
     def go_on(self, attempts: int | None = None) -> None:
         """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for."""
         before = self.wall
-        address, most = self.scope.memory.address, self._attempts if attempts is None else attempts
+        address, most = self.active.memory.address, self._attempts if attempts is None else attempts
         self.status = Status(self._timed(lambda: self._advance(address, most)))
         spent = self.wall - before
-        number = self.scope.memory.number
-        if self.status == Status.WIDEN and number["woken"]:
+        number = self.active.memory.number
+        if self.status == Status.REACTIVATE and number["boundary_switched"]:
             number["rows"] -= 1  # the row after the switch; the whole settles there once more
         self.flush()
         if self.status == Status.REPLAN:
             self._replan()
-        elif self.status == Status.NARROW:
-            self._timed(self.scope.look)
-        elif self.status == Status.WIDEN:
-            self._timed(self.scope.wake)
+        elif self.status == Status.RESTRICT:
+            self._timed(self.active.restrict)
+        elif self.status == Status.REACTIVATE:
+            self._timed(self.active.reactivate)
         elif self.status == Status.PAUSED and attempts is None:
             self._attempts = next_attempts(self._attempts, spent)
 
@@ -84,9 +84,9 @@ class Underway:
 
     def _replan(self) -> None:
         """Other pivots; without any the equations are singular, which a settlement is told once: other zones may do."""
-        number = self.scope.memory.number
+        number = self.active.memory.number
         again = int(number["factorisations"]) <= self._replanned_at + 1
-        found = not again and replan(self.scope.memory, self.scope.problem)
+        found = not again and replan(self.active.memory, self.active.problem)
         if number["midway"]:
             number["replanned"] = 1
         elif not found and number["phase"] == SETTLE and not again:
@@ -101,9 +101,9 @@ class Underway:
 
     def flush(self) -> None:
         """Hand over what the buffers hold and empty them: they are no part of what is saved."""
-        number, array, run = self.scope.memory.number, self.scope.memory.array, self.run
+        number, array, run = self.active.memory.number, self.active.memory.array, self.run
         rows, n_outputs = int(number["rows"]), int(number["n_outputs"])
-        events, t = self.scope.events(int(number["events"])), float(number["t"])
+        events, t = self.active.events(int(number["events"])), float(number["t"])
         number["rows"] = number["events"] = 0
         self.take(
             Block(
@@ -120,11 +120,11 @@ class Underway:
         """Where the run is now, between two slices. Raises UsageError for an engine that cannot be copied, as ida."""
         if why := self.engine.not_saved:
             raise UsageError(f"{why}; a run that is to be saved takes rodas or stepping.")
-        return Saved(self.scope.save(), self.status, self._replanned_at)
+        return Saved(self.active.save(), self.status, self._replanned_at)
 
     def restore(self, saved: Saved) -> None:
         """Go to where this run was, or another one of the same problem with the same settings."""
-        self.scope.restore(saved.scope)
+        self.active.restore(saved.active)
         self.status, self._replanned_at = saved.status, saved.replanned_at
 
 

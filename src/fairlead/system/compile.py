@@ -72,7 +72,7 @@ def compile(flat: FlatModel) -> System:
         raise ModelError(faults)
     system = started(placed(system, initially), initially)
     whole_only = len(system.moves) or rated or numbering.parts
-    return dataclasses.replace(system, narrows=None if whole_only else _subsystem)
+    return dataclasses.replace(system, subsystem_of=None if whole_only else _subsystem)
 
 
 def _subsystem(system: Any) -> Any:

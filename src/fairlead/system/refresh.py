@@ -73,7 +73,7 @@ def refreshed(old: System, flat: FlatModel) -> System:
     if any(b.kernel.structure.tables and _any_of(b, changed) for b in blocks):
         tables, blocks = _placed(blocks)
     if heavier:
-        made = replace(build(flat, numbering, blocks, tables, old.machine_names, begin), narrows=old.narrows)
+        made = replace(build(flat, numbering, blocks, tables, old.machine_names, begin), subsystem_of=old.subsystem_of)
     else:
         made = _with_numbers(old, flat, numbering, blocks, tables, begin)
     if faults := overridden(made):

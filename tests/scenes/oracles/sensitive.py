@@ -17,7 +17,7 @@ from unittest import mock
 
 import numpy as np
 
-from fairlead.integrate.parts import Scope
+from fairlead.integrate.parts import ActiveSubsystem
 from tests.scenes.observed import Observed, observed
 from tests.scenes.oracles.agreement import FACTOR, Compared, away
 
@@ -44,15 +44,15 @@ def sensitivity(model: Any, plain: Compared, accuracy: float) -> tuple[np.ndarra
 @contextlib.contextmanager
 def moved(weights: float, seed: int) -> Iterator[None]:
     """Runs begin with each unknown moved this way or that by so many of its error weights."""
-    begin = Scope.__init__
+    begin = ActiveSubsystem.__init__
 
-    def begin_moved(self: Scope, *given: Any) -> None:
+    def begin_moved(self: ActiveSubsystem, *given: Any) -> None:
         begin(self, *given)
         y, absolute, relative, cap = (self.whole.array[name] for name in ("y", "absolute", "relative", "cap"))
         weight = np.minimum(absolute + relative * np.abs(y), cap)
         y += weights * np.random.default_rng(seed).choice((-1.0, 1.0), len(y)) * weight
 
-    with mock.patch.object(Scope, "__init__", begin_moved):
+    with mock.patch.object(ActiveSubsystem, "__init__", begin_moved):
         yield
 
 

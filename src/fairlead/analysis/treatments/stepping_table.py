@@ -22,7 +22,6 @@ from fairlead.component.keys import PORT, key
 from fairlead.errors import Fault, Location
 from fairlead.kernels.break_away import least_left
 from fairlead.netlist.settings import RunSettings
-from fairlead.system.active.timed_limits import latches_on_means, switched_limits, timed_limits, timed_rows
 from fairlead.system.compiled.named_parts import (
     at_nodes_without_inertia,
     between_mass_and_none,
@@ -32,6 +31,7 @@ from fairlead.system.compiled.named_parts import (
 from fairlead.system.compiled.system import System
 from fairlead.system.numbering.contact_cycles import moved_apart
 from fairlead.system.numbering.unknowns import Unknown
+from fairlead.system.timed_limits import latches_on_means, switched_limits, timed_limits, timed_rows
 
 Way = Literal["inside", "landed", "refused"]
 INSIDE: Way = "inside"

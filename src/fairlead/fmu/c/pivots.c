@@ -17,9 +17,9 @@ static const double *reals_at(const unsigned char *memory, int64_t at) { return 
 
 /* Lengths of the arrays in `words`. */
 static void lengths(const unsigned char *memory, int64_t n_lower, int64_t n_upper, int64_t length[N_REPLACED]) {
-    int64_t n = number(memory, AT_N), core = number(memory, AT_N_CORE), matrix = number(memory, AT_N_MATRIX);
-    const int64_t known[N_REPLACED] = {core,     n,        matrix,  core + 1, n_lower, core + 1,
-                                       n_upper, core + 1, n_upper, n_lower,  n_upper};
+    int64_t n = number(memory, AT_N), reduced = number(memory, AT_N_REDUCED), matrix = number(memory, AT_N_MATRIX);
+    const int64_t known[N_REPLACED] = {reduced, n, matrix, reduced + 1, n_lower, reduced + 1,
+                                       n_upper, reduced + 1, n_upper, n_lower, n_upper};
     memcpy(length, known, sizeof known);
 }
 
@@ -137,7 +137,7 @@ static Pivots *planned(const unsigned char *memory, int64_t n, const int64_t *ta
 }
 
 enum Found pivots_choose(const unsigned char *memory, Pivots **found) {
-    int64_t n = number(memory, AT_N_CORE);
+    int64_t n = number(memory, AT_N_REDUCED);
     double *a = calloc(n * n, sizeof *a);
     char *used = calloc(n, 1), *in = calloc(n * n, 1);
     int64_t *taken = calloc(n, sizeof *taken), *place = calloc(n, sizeof *place);

@@ -195,7 +195,7 @@ static int replan(Run *run) {
             forget_pivots(run);
             run->pivots = found;
             pivots_link(run->memory, found);
-            *whole(run, AT_CORE_VALID) = 0;
+            *whole(run, AT_REDUCED_VALID) = 0;
             *whole(run, AT_REPLANS) += 1;
         }
     }

@@ -39,7 +39,7 @@ from fairlead.integrate.events.pace import DOUBT, not_finite_here
 from fairlead.integrate.events.position import off_place
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling, settle
-from fairlead.integrate.events.violators import distance_to_look, event_is_due, move_ahead
+from fairlead.integrate.events.violators import distance_of_lookahead, event_is_due, move_ahead
 from fairlead.integrate.memory.foreign import at_time_at, compiled, copy, indices, next_time_at, reals
 from fairlead.integrate.point.controller import longest_first_step, restart, smallest_step, weigh, weighted_norm
 from fairlead.integrate.point.curvature import curvature_beyond_rounding
@@ -216,7 +216,7 @@ def judge_again(problem, run, point, events):
     a corner (corners.py), where the equations may have their point on the other side.
     """
     guards, settling = events.guards, events.settling
-    settling.least_look = 0.0
+    settling.least_lookahead = 0.0
     evaluate_guards(problem, run, guards, point.t, point.at_y, guards.at_g)
     if run.crossed == 0:
         return
@@ -225,7 +225,7 @@ def judge_again(problem, run, point, events):
     corner = indices(guards.at_in_corner, problem.n_guards)
     d, tied = 0.0, False  # whether a load turns at its limit
     if problem.n_accelerated == 0:
-        d = distance_to_look(run, point)
+        d = distance_of_lookahead(run, point)
         move_ahead(point, d, d)
     evaluate_guards(problem, run, guards, point.t + d, point.at_y_probe if d > 0.0 else point.at_y, guards.at_g_probe)
     for k in range(guards.n_fired):
@@ -233,7 +233,7 @@ def judge_again(problem, run, point, events):
         near = run.dropped >= MOST_DROPPED or corner[i] == 1 or g[i] >= -AT_LIMIT * tolerance[i]
         if not near and FARTHER * (later[i] - g[i]) >= EARLY * -g[i]:
             near = True
-            settling.least_look = max(settling.least_look, d * EARLY * -g[i] / (later[i] - g[i]))
+            settling.least_lookahead = max(settling.least_lookahead, d * EARLY * -g[i] / (later[i] - g[i]))
         tops_out = goes_no_further(guards, i)
         tied = tied or tops_out
         if near and not tops_out:
@@ -279,7 +279,7 @@ def find_next_time(problem, run, point):
 def settle_here(m, share, order):
     """Settle at the point; then any time event of this instant; then the step to begin with (`first_step`)."""
     problem, run, point, events = m.problem, m.run, m.point, m.events
-    starting = run.steps == 0 and run.companion == 0 and run.crossed == 0
+    starting = run.steps == 0 and run.inconsistent_start == 0 and run.crossed == 0
     status = settle(m, START_ITERATIONS if starting else SETTLE_ITERATIONS)
     if status == INACCURATE:
         return REPLAN
@@ -321,12 +321,12 @@ def finish_settling(m, starting, share, order):
         run.h_next = first_step(problem, run, point, matrices, starting, share, order)
         watch_growth(m)
     run.last_error = 0.0
-    m.events.settling.least_look = 0.0
+    m.events.settling.least_lookahead = 0.0
     run.retried = 0
     m.events.loads.nothing_before = 0
     matrices.jacobian_fresh = 0
     m.linear.factors.factored_h = 0.0
-    run.companion = 0
+    run.inconsistent_start = 0
     run.judged = 1
     run.crossed = 0
     if not starting or recorder.on_grid == 0 or recorder.grid_next == 0:

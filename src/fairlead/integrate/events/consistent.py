@@ -21,7 +21,7 @@ from fairlead.integrate.events.impulse import NO_IMPACT, find_change_of_speed, r
 from fairlead.integrate.events.impulse_changes import any_support_moves, energies
 from fairlead.integrate.events.position import in_units_of_light, project_positions
 from fairlead.integrate.linear.products import add_mass_times, add_slopes_times
-from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_checked
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, mass_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
@@ -182,7 +182,7 @@ def follow_what_holds(problem, point, linear):
     r[:] = 0.0
     field_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_v))
     in_units_of_light(problem, linear.matrices, point.at_v, point.at_x)
-    status = solve_watched(linear, point.at_x)
+    status = solve_checked(linear, point.at_x)
     if status == DONE:
         update(point, 1.0)
     return status
@@ -254,7 +254,7 @@ def newton(problem, point, linear, iterations):
             weigh(point, point.at_y)
         find_residual(problem, point, matrices, point.at_x)
         if iteration == 0:
-            status = solve_watched(linear, point.at_x)
+            status = solve_checked(linear, point.at_x)
             if status != DONE:
                 return status
         else:
@@ -288,7 +288,7 @@ def damped_newton(problem, point, linear):
         weigh(point, point.at_y)
         find_residual(problem, point, matrices, point.at_x)
         if iteration == 0:
-            status = solve_watched(linear, point.at_x)
+            status = solve_checked(linear, point.at_x)
             if status != DONE:
                 return status
         else:

@@ -3,8 +3,8 @@
 Trigger rule: a guard fires on (t0, t1] when it is below zero at t0 and at or above zero at t1; exactly zero at t0 does
 not fire. A guard that starts at zero and dips below it counts as below from there on. Double crossing: below zero at
 both ends, where the cubic through ends and slopes has a top between them: it is tested (bumps.py; edges.py where it is
-the least of several values), as where a force that presses passes through zero (corners.py). Companion rule: a guard
-above its tolerance that never was below zero means that the zones at t0 were wrong (the caller settles from there).
+the least of several values), as where a force that presses passes through zero (corners.py). Inconsistent start: a
+guard above its tolerance that never was below zero means that the zones at t0 were wrong (the caller settles there).
 The limit of a force that holds fires where it goes on beyond its tolerance: a load that comes to its limit and no
 further is held (limits.py).
 Zero at t0 is what a settlement counts as at a limit (limits.AT_LIMIT): the slip of a contact that has just broken
@@ -23,14 +23,14 @@ from fairlead.integrate.events.limits import AT_LIMIT, weigh_limits
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 from fairlead.integrate.point.illinois import LEFT, RIGHT, shares_of_ends
 
-NONE, CROSSING, COMPANION = 0, 1, 2
+NONE, CROSSING, INCONSISTENT_START = 0, 1, 2
 ALWAYS = 2.0
 """A place s, beyond the end of the step, up to which a guard counts as below zero that does so in the whole of it."""
 
 
 @compiled
 def find_first_crossing(m, h):
-    """NONE, CROSSING (at `run.cut_at`, guards in `fired`) or COMPANION (guards in `fired`)."""
+    """NONE, CROSSING (at `run.cut_at`, guards in `fired`) or INCONSISTENT_START (guards in `fired`)."""
     guards = m.events.guards
     ng = guards.n_guards
     guards.n_fired = 0
@@ -161,7 +161,7 @@ def collect_fired(guards, crossed):
             fired[guards.n_fired] = i
             guards.n_fired += 1
     if guards.n_fired > 0:
-        return COMPANION
+        return INCONSISTENT_START
     if not crossed:
         return NONE
     for i in range(ng):

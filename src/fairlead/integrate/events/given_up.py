@@ -1,6 +1,6 @@
 """A trial step that is given up, in every engine: it is taken again with another length, or its start is settled.
 
-Companion rule. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
+Inconsistent start. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
 zones at the start were wrong, so the start is settled, by what its guards are there. Where it was settled already and
 all such guards fall by the slopes there, the step is too rough at its start, and a much shorter one is tried. So it is
 where one neither falls nor rises by them, but is below zero at the end: the interpolant of a long step has a body that
@@ -41,7 +41,7 @@ def take_much_shorter(run, guards, h):
 def settle_at_start(m):
     """Settle at the point, on the guards in `fired`, before another step is tried."""
     problem, run, point = m.problem, m.run, m.point
-    run.companion = 1
+    run.inconsistent_start = 1
     write_row(problem, m.recorder, point.t, point.at_y, BEFORE)
     remember(problem, point, m.events.loads)
     begin_settling(problem, run, point, m.events)
@@ -50,10 +50,10 @@ def settle_at_start(m):
 
 
 @compiled
-def mend_start(m, h):
-    """Follow the companion rule for the step h, of which the guards in `fired` were above zero from the start."""
+def settle_inconsistent_start(m, h):
+    """Settle the inconsistent start of the step h, of which the guards in `fired` were above zero from the start."""
     run, point = m.run, m.point
-    run.rejected_companion += 1
+    run.rejected_inconsistent += 1
     if run.adaptive == 1 and DOUBT * h >= smallest_step(run, point) and is_doubtful(m):
         return take_much_shorter(run, m.events.guards, h)
     if run.judged == 0:  # not known by the equations yet: a load that tops out at its limit here is held

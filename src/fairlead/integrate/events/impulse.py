@@ -59,7 +59,7 @@ from fairlead.integrate.events.impulse_load import (
 )
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
 from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound
-from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_checked
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh
 
@@ -137,7 +137,7 @@ def solve_to_rounding(problem, point, linear):
     y, b, r = reals(point.at_y, n), reals(point.at_b, n), reals(point.at_v, n)
     after, missed = reals(point.at_y_probe, n), reals(point.at_f, n)
     takes, struck = indices(problem.at_takes_impulse, n), indices(problem.at_struck, n)
-    status = solve_watched(linear, point.at_b)
+    status = solve_checked(linear, point.at_b)
     if status != DONE:
         return status
     for k in range(n):

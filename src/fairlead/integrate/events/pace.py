@@ -90,7 +90,7 @@ def accept(m, h, crossed):
     """Set the piece of the trial that is accepted: up to the crossing, or to the end; the loop ends its attempts."""
     run, point, recorder = m.run, m.point, m.recorder
     run.steps += 1
-    run.partial_steps += run.narrowed
+    run.partial_steps += run.is_part
     run.crossed = 1 if crossed else 0
     if crossed and run.cut_at < 1.0:
         run.t_piece = point.t + run.cut_at * h
@@ -125,4 +125,4 @@ def end_attempts(run, length):
         run.h_next = length
     run.last_error = max(run.error, 1e-4)
     run.retried = 0
-    run.mended = 0
+    run.reinitialised = 0

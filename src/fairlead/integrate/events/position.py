@@ -16,7 +16,7 @@ from __future__ import annotations
 from math import isfinite
 
 from fairlead.integrate.codes import DONE
-from fairlead.integrate.linear.systems import solve, solve_watched
+from fairlead.integrate.linear.systems import solve, solve_checked
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
@@ -92,7 +92,7 @@ def project_positions(problem, point, linear):
         if problem.n_light > 0:
             in_units_of_light(problem, linear.matrices, point.at_v, point.at_b)
         if move == 0:
-            status = solve_watched(linear, point.at_b)
+            status = solve_checked(linear, point.at_b)
             if status != DONE:
                 return status
         else:

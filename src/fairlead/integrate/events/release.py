@@ -48,7 +48,7 @@ from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.patterns import remember_pattern
 from fairlead.integrate.events.violators import RISE
 from fairlead.integrate.linear.products import add_mass_times, inertia_of
-from fairlead.integrate.linear.systems import solve_watched
+from fairlead.integrate.linear.systems import solve_checked
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, mass_at, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 
@@ -168,7 +168,7 @@ def accelerations_before(problem, point, linear, events):
         for k in range(n):
             minus_rate[k] = -slope[k] if differential[k] == 1 else 0.0
         add_mass_times(matrices, point.at_v, point.at_x)
-        status = solve_watched(linear, point.at_x)
+        status = solve_checked(linear, point.at_x)
     change = reals(point.at_x, n)
     copy(now, zones)
     for k in range(n):
@@ -199,7 +199,7 @@ def release(m):
             close_level(problem, loads)
             continue
         copy(reals(loads.at_out + 8 * top * problem.n, problem.n), reals(point.at_x, problem.n))
-        status = solve_watched(linear, point.at_x)
+        status = solve_checked(linear, point.at_x)
         if status != DONE:
             return status
         guards.n_fired = 0

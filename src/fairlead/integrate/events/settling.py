@@ -123,7 +123,7 @@ def begin_settling(problem, run, point, events):
     loads.levels, loads.level_due, loads.ordered = 0, 0, 0
     settling.without_answer = 0
     settling.stage, settling.stage_from, settling.fewest, settling.waited = ALL, 0, settling.n_guards + 1, 0
-    settling.look = 0.0
+    settling.lookahead = 0.0
     settling.nearness = 1.0
     remember_pattern(run, settling)
     watch_progress(problem, run, point, events)
@@ -186,7 +186,7 @@ def next_stage(problem, events):
     settling.stage = settling.stage + 1 if problem.weighs_guards == 1 else max(settling.stage + 1, LEAST_INDEX)
     settling.stage_from = settling.passes
     if LEAST_INDEX < settling.stage <= LEAST_INDEX + LOOKS:
-        settling.look *= NEARER
+        settling.lookahead *= NEARER
         settling.nearness *= NEARER
 
 
@@ -263,8 +263,8 @@ def log_change(m, z):
     write_event(m.point, settling, m.recorder, z, before[z], zones[z], guard)
     settling.switches += 1
     indices(settling.at_switches_by_machine, nz)[z] += 1
-    if run.narrowed == 1 and indices(settling.at_boundary, nz)[z] == 1:
-        run.woken = 1
+    if run.is_part == 1 and indices(settling.at_boundary, nz)[z] == 1:
+        run.boundary_switched = 1
     watch_chatter(m, z)
 
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 from fairlead.integrate.events.fast_way import TIE
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.limits import AT_LIMIT
-from fairlead.integrate.events.violators import RISE, distance_to_look, event_is_due, move_ahead
+from fairlead.integrate.events.violators import RISE, distance_of_lookahead, event_is_due, move_ahead
 from fairlead.integrate.memory.foreign import compiled, indices, reals, slip_at
 
 ROUNDING = 1e-6
@@ -59,11 +59,11 @@ def find_slips(m):
     soon, in the zone that it is in.
     """
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
-    if settling.look == 0.0:
-        settling.look = max(distance_to_look(run, point), settling.least_look)
-    move_ahead(point, settling.look, settling.look)
+    if settling.lookahead == 0.0:
+        settling.lookahead = max(distance_of_lookahead(run, point), settling.least_lookahead)
+    move_ahead(point, settling.lookahead, settling.lookahead)
     slip_at(problem.call_drift, (problem.context, point.t, point.at_y, point.at_x))
-    slip_at(problem.call_drift, (problem.context, point.t + settling.look, point.at_y_probe, point.at_v))
+    slip_at(problem.call_drift, (problem.context, point.t + settling.lookahead, point.at_y_probe, point.at_v))
     now, slip = reals(point.at_x, problem.n), reals(point.at_v, problem.n)
     holding, limit = indices(problem.at_may_hold, guards.n_guards), indices(guards.at_limit_guard, guards.n_guards)
     least, none, tolerance = NOWHERE, 0.0, reals(guards.at_guard_tolerance, guards.n_guards)
@@ -71,7 +71,7 @@ def find_slips(m):
         if holding[i] > 0 and limit[i] == 0:
             least, none = min(least, RISE * tolerance[i]), max(none, AT_LIMIT * tolerance[i])
     for k in range(problem.n):
-        grows = abs(slip[k] - now[k]) > least + DYING_OUT * settling.look * abs(now[k])
+        grows = abs(slip[k] - now[k]) > least + DYING_OUT * settling.lookahead * abs(now[k])
         of_now = 0.0 if abs(now[k]) <= none else now[k]
         slip[k] = now[k] - slip[k] - of_now if grows else 0.0  # the callback gives -v_rel
     return least

@@ -53,7 +53,7 @@ def fire_violators(problem, run, point, events):
         if g[i] > tolerance[i] or rises:
             wrong[i] = g[i] if g[i] > tolerance[i] else probe[i] - g[i]
             if inertia[i] > 0.0:
-                wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.look)
+                wrong[i] *= inertia[i] / (SLIP_TIME if g[i] > tolerance[i] else settling.lookahead)
             fired[guards.n_fired] = i
             guards.n_fired += 1
     if settling.stage == 0:
@@ -117,18 +117,18 @@ def look_ahead(problem, run, point, events):
     all zones of a settlement. Where no guard is known for a slip, forces alone are taken at d/2.
     """
     guards, settling = events.guards, events.settling
-    if settling.look == 0.0:
-        settling.look = max(distance_to_look(run, point), settling.least_look)
+    if settling.lookahead == 0.0:
+        settling.lookahead = max(distance_of_lookahead(run, point), settling.least_lookahead)
     if problem.weighs_guards == 0:
-        move_ahead(point, settling.look, 0.5 * settling.look)
-        evaluate_guards(problem, run, guards, point.t + settling.look, point.at_y_probe, guards.at_g_probe)
+        move_ahead(point, settling.lookahead, 0.5 * settling.lookahead)
+        evaluate_guards(problem, run, guards, point.t + settling.lookahead, point.at_y_probe, guards.at_g_probe)
         return
     inertia, probe = reals(guards.at_guard_inertia, problem.n_guards), reals(guards.at_g_probe, problem.n_guards)
     late = reals(guards.at_g_later, problem.n_guards)
-    move_ahead(point, settling.look, settling.look)
-    evaluate_guards(problem, run, guards, point.t + settling.look, point.at_y_probe, guards.at_g_later)
-    move_ahead(point, 0.5 * settling.look, 0.5 * settling.look)
-    evaluate_guards(problem, run, guards, point.t + 0.5 * settling.look, point.at_y_probe, guards.at_g_probe)
+    move_ahead(point, settling.lookahead, settling.lookahead)
+    evaluate_guards(problem, run, guards, point.t + settling.lookahead, point.at_y_probe, guards.at_g_later)
+    move_ahead(point, 0.5 * settling.lookahead, 0.5 * settling.lookahead)
+    evaluate_guards(problem, run, guards, point.t + 0.5 * settling.lookahead, point.at_y_probe, guards.at_g_probe)
     for i in range(problem.n_guards):
         if inertia[i] > 0.0:
             probe[i] = late[i]
@@ -148,7 +148,7 @@ def move_ahead(point, d, forces):
 
 
 @compiled
-def distance_to_look(run, point):
+def distance_of_lookahead(run, point):
     """How far ahead: NUDGE weights, but no further than y'' leaves y' its direction, nor than 1e-6 of the span."""
     n = point.n
     slope, curvature, rate = reals(point.at_slope, n), reals(point.at_curvature, n), reals(point.at_u, n)

@@ -11,8 +11,8 @@ from __future__ import annotations
 from math import inf
 
 from fairlead.integrate.codes import RECORD, STEP_FLOOR
-from fairlead.integrate.events.crossing import COMPANION, NONE, find_first_crossing, guards_at
-from fairlead.integrate.events.given_up import is_doubtful, mend_start
+from fairlead.integrate.events.crossing import INCONSISTENT_START, NONE, find_first_crossing, guards_at
+from fairlead.integrate.events.given_up import is_doubtful, settle_inconsistent_start
 from fairlead.integrate.events.guards import evaluate_guards
 from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.linear.products import add_jacobian_times, add_mass_times
@@ -72,7 +72,7 @@ def guards(address, t, at_y, at_g):
 
 
 def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor):
-    """Judge the step from the point to (t_end, y_end, y'_end) by the trigger and companion rules; set its piece.
+    """Judge the step from the point to (t_end, y_end, y'_end) by the trigger rule; set its piece.
 
     1 if it is to be taken again, shorter: it is cut at a crossing where it does not satisfy the equations. Else 0.
     `rooted` are guards whose rise through zero at t_end was located by the integrator; what the rules of
@@ -88,10 +88,10 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
     if note_swings(problem, run, point, h) and h > 2.0 * floor:
         return 1
     found = find_first_crossing(m, h)
-    if found == COMPANION:
+    if found == INCONSISTENT_START:
         if h > 2.0 * floor and is_doubtful(m):
             return 1
-        mend_start(m, 0.0)
+        settle_inconsistent_start(m, 0.0)
         return 0
     if found == NONE and n_rooted > 0:
         copy(indices(at_rooted, n_rooted), indices(guards.at_fired, n_rooted))

@@ -1,7 +1,7 @@
 """The `ida` engine: steps by SUNDIALS IDA (variable-order BDF), all the rest as in `rodas`.
 
     TRY      h, order = IDA                        one internal step; zones, M frozen since the last settlement
-             guards are IDA's root functions; the trigger and companion rules judge its step (crossing.py)
+             guards are IDA's root functions; the trigger rule judges its step (crossing.py)
     RECORD, ARRIVE, SETTLE                         the compiled loop of `rodas`, which is entered for no step
 
 IDA is started afresh after every settlement, at order one, because a switch invalidates the history of a

@@ -1,10 +1,10 @@
-"""What is left to factorise when the unknowns that cost nothing are taken out: the core of W.
+"""What is left to factorise when the unknowns that cost nothing are taken out: the reduced matrix.
 
     quadratures            nothing depends on them: found last, from the change of all others
     positions, x' = c v    m_x dx s - c dv = b_x gives dx from dv; the column of x moves into that of v:
                            W_vv = s M_vv - J_vv - J_vx c/(s m_x)
 
-with s the factor of M: 1/(h gamma) in a step, 1 at a consistent point. The core is planned once for a
+with s the factor of M: 1/(h gamma) in a step, 1 at a consistent point. The reduced matrix is planned once for a
 problem (pivot order and patterns: ordering.py), laid out by columns in pivot order, every column with the list of
 the entries of J and M that go into it, so that a column can be assembled alone.
 """
@@ -24,13 +24,13 @@ FROM_JACOBIAN, FROM_MASS = -1, -2
 
 @dataclass(frozen=True)
 class Layout:
-    """Which unknowns are in the core, and how the others hang on it."""
+    """Which unknowns are in the reduced matrix, and how the others hang on it."""
 
-    core: Integers
-    """Unknowns of the core, ascending."""
+    reduced: Integers
+    """Unknowns of the reduced matrix, ascending."""
     positions: dict[int, int]
     """Unknown of each position: the unknown it is the integral of, or -1."""
-    meters: Integers
+    quadratures: Integers
     """Quadratures."""
 
 
@@ -46,34 +46,34 @@ class Entries:
 
 
 def lay_out(problem: Problem) -> Layout:
-    """Sort the unknowns into core, positions and quadratures."""
+    """Sort the unknowns into reduced, positions and quadratures."""
     n = len(problem.initial)
-    meters = np.flatnonzero(problem.quadrature)
+    quadratures = np.flatnonzero(problem.quadrature)
     positions = {x: v for x, v in kinematic_rows(problem).items() if not problem.quadrature[x]}
-    out = set(positions) | set(meters.tolist())
-    # A position whose speed is itself a position, or gone, stays: dx must follow from the core alone. Of two that are
-    # each the other's rate (x' = v, v' = -x) the first counts as the position.
+    out = set(positions) | set(quadratures.tolist())
+    # A position whose speed is itself a position, or gone, stays: dx must follow from the reduced matrix alone. Of two
+    # that are each the other's rate (x' = v, v' = -x) the first counts as the position.
     for x in sorted(positions, reverse=True):
         if positions[x] in out:
             del positions[x]
             out.discard(x)
-    return Layout(np.array([k for k in range(n) if k not in out], dtype=np.int64), positions, meters)
+    return Layout(np.array([k for k in range(n) if k not in out], dtype=np.int64), positions, quadratures)
 
 
-def core_entries(problem: Problem, layout: Layout) -> Entries:
-    """Every entry of J and M that lands in the core, rows and columns by unknown."""
+def reduced_entries(problem: Problem, layout: Layout) -> Entries:
+    """Every entry of J and M that lands in the reduced matrix, rows and columns by unknown."""
     n = len(problem.initial)
-    in_core = np.zeros(n, dtype=bool)
-    in_core[layout.core] = True
+    in_reduced = np.zeros(n, dtype=bool)
+    in_reduced[layout.reduced] = True
     speed = np.arange(n)
     number = np.full(n, FROM_JACOBIAN)
-    speed[layout.meters] = -1
+    speed[layout.quadratures] = -1
     for k, (x, v) in enumerate(layout.positions.items()):
         speed[x], number[x] = v, k
     rows, columns = problem.pattern.rows, columns_of(problem.pattern)
-    used = in_core[rows] & (speed[columns] >= 0)
+    used = in_reduced[rows] & (speed[columns] >= 0)
     mass_rows, mass_columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
-    mass_used = in_core[mass_rows] & in_core[mass_columns]
+    mass_used = in_reduced[mass_rows] & in_reduced[mass_columns]
     return Entries(
         row=np.concatenate([rows[used], mass_rows[mass_used]]),
         column=np.concatenate([speed[columns[used]], mass_columns[mass_used]]),
@@ -83,23 +83,23 @@ def core_entries(problem: Problem, layout: Layout) -> Entries:
 
 
 def arrays_of(problem: Problem, layout: Layout) -> dict[str, Integers]:
-    """How positions and quadratures follow from the core, by the names in memory/of_linear.py."""
+    """How positions and quadratures follow from the reduced matrix, by the names in memory/of_linear.py."""
     rows, columns = problem.pattern.rows, columns_of(problem.pattern)
     diagonal = _on_diagonal(problem.mass_pattern)
     place = {(i, j): p for p, (i, j) in enumerate(zip(rows.tolist(), columns.tolist(), strict=True))}
     positions = layout.positions
-    of_meter = [np.flatnonzero(rows == q) for q in layout.meters.tolist()]
-    entries = np.concatenate([np.zeros(0, np.int64), *of_meter]).astype(np.int64)
+    of_quadrature = [np.flatnonzero(rows == q) for q in layout.quadratures.tolist()]
+    entries = np.concatenate([np.zeros(0, np.int64), *of_quadrature]).astype(np.int64)
     return {
         "position": _array(positions),
         "position_speed": _array(positions.values()),
         "position_slope": _array(place.get((x, v), -1) for x, v in positions.items()),
         "position_mass": _array(diagonal[x] for x in positions),
-        "meter": layout.meters.astype(np.int64),
-        "meter_mass": _array(diagonal[q] for q in layout.meters.tolist()),
-        "meter_starts": np.cumsum([0, *(len(found) for found in of_meter)]).astype(np.int64),
-        "meter_entry": entries,
-        "meter_column": columns[entries],
+        "quadrature_row": layout.quadratures.astype(np.int64),
+        "quadrature_mass": _array(diagonal[q] for q in layout.quadratures.tolist()),
+        "quadrature_starts": np.cumsum([0, *(len(found) for found in of_quadrature)]).astype(np.int64),
+        "quadrature_entry": entries,
+        "quadrature_column": columns[entries],
     }
 
 

@@ -1,6 +1,6 @@
 """Where the entries of W live, and in which order its unknowns are eliminated: planned once for a problem.
 
-Positions and quadratures are condensed out first (condensing.py). The rest, the core, goes by minimum
+Positions and quadratures are condensed out first (condensing.py). The rest, the reduced matrix, goes by minimum
 degree on A + A', many independent unknowns a round, an algebraic unknown only after the differential
 unknowns its row and column touch. That rule is what makes one order serve every zone and every h: the
 diagonal of a multiplier vanishes while its contact holds, and only the elimination of the speeds it acts
@@ -27,8 +27,8 @@ from fairlead.integrate.linear.condensing import (
     Layout,
     arrays_of,
     columns_of,
-    core_entries,
     lay_out,
+    reduced_entries,
     starts_of,
     used_by,
 )
@@ -57,9 +57,9 @@ class Plan:
 
     @property
     def lengths(self) -> dict[str, int]:
-        """Sizes of the core and of what hangs on it, by their name in memory/of_linear.py; all zero when dense."""
-        lengths = {"core": "row_order", "positions": "position", "meters": "meter", "meter_entries": "meter_entry",
-                   "entries": "entry_source"}  # fmt: skip
+        """Sizes of the reduced matrix and of what follows from it, named as in of_linear.py; all zero when dense."""
+        lengths = {"reduced": "row_order", "positions": "position", "quadrature_rows": "quadrature_row",
+                   "quadrature_entries": "quadrature_entry", "entries": "entry_source"}  # fmt: skip
         return {f"n_{name}": len(self.arrays.get(array, ())) for name, array in lengths.items()}
 
 
@@ -69,7 +69,7 @@ def plan(problem: Problem) -> Plan:
     if n <= DENSE_LIMIT:
         return dense_plan(problem)
     layout = lay_out(problem)
-    entries = core_entries(problem, layout)
+    entries = reduced_entries(problem, layout)
     order = elimination_order(problem, layout, entries)
     sparse = sparse_plan(problem, layout, entries, order, order)
     if FULL_FASTER * operations(sparse) > n**3 / 3 + n**2:
@@ -98,13 +98,13 @@ def sparse_plan(
     problem: Problem, layout: Layout, entries: Entries, row_order: Integers, column_order: Integers
 ) -> Plan:
     """Core columns and rows in the given pivot orders (position k: which unknown), with the fill they cause."""
-    n, core = len(problem.initial), len(row_order)
+    n, reduced = len(problem.initial), len(row_order)
     rows, columns = inverse(row_order, n)[entries.row], inverse(column_order, n)[entries.column]
     sorting = np.lexsort((rows, columns))
     columns, kind, source = columns[sorting], entries.kind[sorting], entries.source[sorting]
-    keys, place = np.unique(columns * core + rows[sorting], return_inverse=True)
-    matrix_rows, matrix_columns = keys % core, keys // core
-    lower, upper = fill(matrix_rows, matrix_columns, core)
+    keys, place = np.unique(columns * reduced + rows[sorting], return_inverse=True)
+    matrix_rows, matrix_columns = keys % reduced, keys // reduced
+    lower, upper = fill(matrix_rows, matrix_columns, reduced)
     by_row = np.argsort(upper.rows, kind="stable")
     is_mass = kind == FROM_MASS
     column_of_jacobian = used_by(columns[~is_mass], source[~is_mass], len(problem.pattern.rows))
@@ -116,12 +116,12 @@ def sparse_plan(
         size=len(keys),
         arrays=followers | {
             "row_order": row_order, "column_order": column_order,
-            "matrix_starts": starts_of(matrix_columns, core), "matrix_rows": matrix_rows,
+            "matrix_starts": starts_of(matrix_columns, reduced), "matrix_rows": matrix_rows,
             "lower_starts": lower.starts, "lower_rows": lower.rows,
             "upper_starts": upper.starts, "upper_rows": upper.rows,
-            "using_starts": starts_of(upper.rows, core), "using_columns": columns_of(upper)[by_row],
+            "using_starts": starts_of(upper.rows, reduced), "using_columns": columns_of(upper)[by_row],
             "row_place": inverse(row_order, n)[:n],
-            "entry_starts": starts_of(columns, core), "entry_source": source,
+            "entry_starts": starts_of(columns, reduced), "entry_source": source,
             "entry_place": place.astype(np.int64).reshape(-1), "entry_kind": kind,
             "jacobian_column": column_of_jacobian,
             "mass_column": used_by(columns[is_mass], source[is_mass], len(problem.mass_pattern.rows)),
@@ -173,8 +173,8 @@ def by_columns(lists: Sequence[Sequence[int]]) -> Pattern:
 
 
 def elimination_order(problem: Problem, layout: Layout, entries: Entries) -> Integers:
-    """Order of the unknowns of the core."""
-    graph: dict[int, set[int]] = {k: set() for k in layout.core.tolist()}
+    """Order of the unknowns of the reduced matrix."""
+    graph: dict[int, set[int]] = {k: set() for k in layout.reduced.tolist()}
     for i, j in zip(entries.row.tolist(), entries.column.tolist(), strict=True):
         if i != j:
             graph[i].add(j)
@@ -185,12 +185,12 @@ def elimination_order(problem: Problem, layout: Layout, entries: Entries) -> Int
     waits_for = {
         k: set() if k in differential else graph[k] & (differential if k in accelerations else moving) for k in graph
     }
-    for k, hub in hubs(problem).items():
-        waits_for[k].discard(hub)
+    for k, row in dense_rows(problem).items():
+        waits_for[k].discard(row)
     return np.array(minimum_degree(graph, waits_for), dtype=np.int64)
 
 
-def hubs(problem: Problem) -> dict[int, int]:
+def dense_rows(problem: Problem) -> dict[int, int]:
     """Rows of contacts between a body and one that many contacts act on, each with the speed of the latter."""
     rows, columns = problem.mass_pattern.rows, columns_of(problem.mass_pattern)
     held = ~np.asarray(problem.differential, dtype=bool)[rows]

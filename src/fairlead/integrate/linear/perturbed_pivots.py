@@ -44,7 +44,7 @@ def substitute(factors, at_x):
 @compiled
 def prepare_correction(factors):
     """Z, and the factors of I - D E^T Z, rows in units of their scale; DONE, or INACCURATE if A is singular."""
-    n, count = factors.n_core, 0
+    n, count = factors.n_reduced, 0
     added, place = reals(factors.at_perturbation, n), indices(factors.at_perturbed, factors.most_perturbed)
     for k in range(n):
         if added[k] != 0.0:
@@ -79,7 +79,7 @@ def eliminate(factors, c, count):
             c[k * count + j], c[row * count + j] = c[row * count + j], c[k * count + j]
         pivot = c[k * count + k]
         if not (isfinite(pivot) and abs(pivot) > SINGULAR_BELOW):
-            factors.culprit = indices(factors.at_column_order, factors.n_core)[place[k]]
+            factors.culprit = indices(factors.at_column_order, factors.n_reduced)[place[k]]
             return INACCURATE
         for i in range(k + 1, count):
             c[i * count + k] /= pivot
@@ -91,7 +91,7 @@ def eliminate(factors, c, count):
 @compiled
 def correct(factors, at_x):
     """Turn B^-1 b at `at_x` into A^-1 b."""
-    n, count = factors.n_core, factors.n_perturbed
+    n, count = factors.n_reduced, factors.n_perturbed
     x, z = reals(at_x, n), reals(factors.at_perturbed_columns, factors.most_perturbed * n)
     scale, added = reals(factors.at_row_scale, n), reals(factors.at_perturbation, n)
     order = indices(factors.at_capacitance_order, factors.most_perturbed)

@@ -2,7 +2,7 @@
 
 Left-looking, column by column (Gilbert, Peierls, SIAM J. Sci. Stat. Comput. 9:862, 1988), with the
 patterns of L and U known, as KLU does when it refactorises (Davis, Palamadai Natarajan, ACM TOMS
-37:36, 2010). `matrix` holds the columns of the core in pivot order, rows renumbered in pivot order.
+37:36, 2010). `matrix` holds the columns of the reduced matrix in pivot order, rows renumbered in pivot order.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def factorise_planned(factors):
 
     Up to `most_perturbed` pivots are perturbed instead (perturbed_pivots.py).
     """
-    n = factors.n_core
+    n = factors.n_reduced
     starts, rows = indices(factors.at_matrix_starts, n + 1), indices(factors.at_matrix_rows, factors.n_matrix)
     values = reals(factors.at_matrix, factors.n_matrix)
     lower_starts, upper_starts = indices(factors.at_lower_starts, n + 1), indices(factors.at_upper_starts, n + 1)
@@ -86,9 +86,9 @@ def factorise_planned(factors):
 @compiled
 def mark_users(factors, count):
     """Mark as `dirty` all columns that use one of the `count` columns in `waiting`, and those that use them."""
-    starts = indices(factors.at_using_starts, factors.n_core + 1)
-    columns = indices(factors.at_using_columns, starts[factors.n_core])
-    dirty, waiting = indices(factors.at_dirty, factors.n_core), indices(factors.at_waiting, factors.n_core)
+    starts = indices(factors.at_using_starts, factors.n_reduced + 1)
+    columns = indices(factors.at_using_columns, starts[factors.n_reduced])
+    dirty, waiting = indices(factors.at_dirty, factors.n_reduced), indices(factors.at_waiting, factors.n_reduced)
     while count > 0:
         count -= 1
         j = waiting[count]
@@ -102,8 +102,8 @@ def mark_users(factors, count):
 
 @compiled
 def scale_rows(factors):
-    """row_scale = 1 / the largest entry of each row of the core, its columns in units of their weight."""
-    n = factors.n_core
+    """row_scale = 1 / the largest entry of each row of the reduced matrix, its columns in units of their weight."""
+    n = factors.n_reduced
     starts, rows = indices(factors.at_matrix_starts, n + 1), indices(factors.at_matrix_rows, factors.n_matrix)
     values, column_order = reals(factors.at_matrix, factors.n_matrix), indices(factors.at_column_order, n)
     row_scale, column_scale = reals(factors.at_row_scale, n), reals(factors.at_column_scale, factors.n)
@@ -119,7 +119,7 @@ def scale_rows(factors):
 @compiled
 def substitute_planned(factors, at_x):
     """Overwrite the right side at `at_x`, in pivot order, with the solution, by the factors."""
-    n = factors.n_core
+    n = factors.n_reduced
     lower_starts, upper_starts = indices(factors.at_lower_starts, n + 1), indices(factors.at_upper_starts, n + 1)
     n_lower, n_upper = lower_starts[n], upper_starts[n]
     lower_rows, upper_rows = indices(factors.at_lower_rows, n_lower), indices(factors.at_upper_rows, n_upper)
@@ -144,17 +144,18 @@ def substitute_planned(factors, at_x):
 
 @compiled
 def backward_error(linear):
-    """Largest |b - A x| over the largest |A||x| + |b|, for core_x the solution computed for core_b.
+    """Largest |b - A x| over the largest |A||x| + |b|, for reduced_x the solution computed for reduced_b.
 
     By the norm of the scaled rows, not row by row: a row of a chain where nothing moves yet holds
     numbers near underflow, which no factorisation gets right and nobody needs. The residual itself is
-    left in `core_residual`, ready for a step of refinement.
+    left in `reduced_residual`, ready for a step of refinement.
     """
-    core, factors = linear.core, linear.factors
-    n = core.n_core
+    reduced, factors = linear.reduced, linear.factors
+    n = reduced.n_reduced
     starts, rows = indices(factors.at_matrix_starts, n + 1), indices(factors.at_matrix_rows, factors.n_matrix)
-    values, x, b = reals(factors.at_matrix, factors.n_matrix), reals(core.at_core_x, n), reals(core.at_core_b, n)
-    residual, size = reals(factors.at_core_residual, n), reals(factors.at_factor_work, n)
+    values, x = reals(factors.at_matrix, factors.n_matrix), reals(reduced.at_reduced_x, n)
+    b = reals(reduced.at_reduced_b, n)
+    residual, size = reals(factors.at_reduced_residual, n), reals(factors.at_factor_work, n)
     for k in range(n):
         residual[k] = b[k]
         size[k] = abs(b[k])

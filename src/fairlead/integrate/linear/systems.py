@@ -4,18 +4,18 @@
     consistent point  C = the columns of M where y_i is differential, of -J where it is algebraic
 
 Both live in `matrix`, along one fixed pattern. With up to ordering.DENSE_LIMIT unknowns, and with more where that takes
-less operations (ordering.plan), it is a full matrix, by columns, factored here with partial pivoting; else the core of
-it (condensing.py) along a plan, see sparse.py. Unknowns are scaled by their error weight before rows are compared, so
-that the choice of pivots does not depend on units.
+less operations (ordering.plan), it is a full matrix, by columns, factored here with partial pivoting; else the reduced
+matrix (condensing.py) along a plan, see sparse.py. Unknowns are scaled by their error weight before rows are compared,
+so that the choice of pivots does not depend on units.
 """
 
 from __future__ import annotations
 
 from fairlead.integrate.codes import DONE, INACCURATE, SINGULAR, VANISHES
-from fairlead.integrate.linear.condensed import factorise_core, solve_core
+from fairlead.integrate.linear.condensed import factorise_reduced, solve_reduced
 from fairlead.integrate.memory.foreign import compiled, indices, reals
 
-REFINE_ABOVE, DISTRUST_ABOVE = 1e-12, 1e-9
+REFINE_ABOVE, REPLAN_ABOVE = 1e-12, 1e-9
 """Backward error of a first solve that asks for refinement, and, after it, for other pivots."""
 
 
@@ -26,7 +26,7 @@ def factorise_step(linear, scale):
     factors.factorisations += 1
     factors.mass_factor = scale
     if factors.dense == 0:
-        return factorise_core(linear, scale, False)
+        return factorise_reduced(linear, scale, False)
     assemble_step(linear, scale)
     return factorise_dense(factors)
 
@@ -37,7 +37,7 @@ def factorise_consistent(linear):
     factors = linear.factors
     factors.factorisations += 1
     if factors.dense == 0:
-        return factorise_core(linear, 1.0, True)
+        return factorise_reduced(linear, 1.0, True)
     assemble_consistent(linear)
     return factorise_dense(factors)
 
@@ -50,7 +50,7 @@ def solve(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
     else:
-        solve_core(linear, at_b, True, 0.0)
+        solve_reduced(linear, at_b, True, 0.0)
 
 
 @compiled
@@ -61,11 +61,11 @@ def solve_motion(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
     else:
-        solve_core(linear, at_b, False, 0.0)
+        solve_reduced(linear, at_b, False, 0.0)
 
 
 @compiled
-def solve_watched(linear, at_b):
+def solve_checked(linear, at_b):
     """As solve, for the first one after a factorisation: DONE, or INACCURATE when other pivots are needed.
 
     A planned pivot order can lose all accuracy with no small pivot to see, so the residual decides,
@@ -76,7 +76,7 @@ def solve_watched(linear, at_b):
     if factors.dense == 1:
         solve_dense(factors, at_b)
         return DONE
-    if solve_core(linear, at_b, True, REFINE_ABOVE) <= DISTRUST_ABOVE:
+    if solve_reduced(linear, at_b, True, REFINE_ABOVE) <= REPLAN_ABOVE:
         return DONE
     factors.culprit = -1
     return INACCURATE

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from fairlead.integrate.memory.of_events import GUARDS, LOADS, SETTLING
-from fairlead.integrate.memory.of_linear import CORE, FACTORS, MATRICES
+from fairlead.integrate.memory.of_linear import FACTORS, MATRICES, REDUCED
 from fairlead.integrate.memory.of_methods import CONTACTS, EXCHANGE, RULE, TABLEAU
 from fairlead.integrate.memory.of_problem import PROBLEM
 from fairlead.integrate.memory.of_run import POINT, RECORDER, RUN
@@ -20,7 +20,7 @@ ROOMS: Mapping[str, Struct | Mapping[str, Struct]] = {
     "problem": PROBLEM,
     "run": RUN,
     "point": POINT,
-    "linear": {"matrices": MATRICES, "core": CORE, "factors": FACTORS},
+    "linear": {"matrices": MATRICES, "reduced": REDUCED, "factors": FACTORS},
     "events": {"guards": GUARDS, "settling": SETTLING, "loads": LOADS},
     "recorder": RECORDER,
     "method": TABLEAU,

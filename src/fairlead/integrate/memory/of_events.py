@@ -53,9 +53,9 @@ SETTLING = Struct(
     ),
     numbers=(
         "t_last_switch",  # the last settlement in which a guard fired
-        "look",  # [s] how far ahead guards are judged; 0: not known yet
-        "least_look",  # [s] at least so far, after a crossing that was too early (arrival.py)
-        "nearness",  # share of the first `look` that is left
+        "lookahead",  # [s] how far ahead guards are judged; 0: not known yet
+        "least_lookahead",  # [s] at least so far, after a crossing that was too early (arrival.py)
+        "nearness",  # share of the first `lookahead` that is left
         "own_time",  # [s] a time of the bodies in an impact, of which a small part is its own (impulse_load.py)
     ),
     reals={

@@ -11,7 +11,7 @@ from fairlead.integrate.memory.struct import Struct
 TABLEAU = Struct(
     copies=("n",),
     integers=(
-        "n_watched",  # how many are `watched`
+        "n_monitored",  # how many are `monitored`
         "stages",
     ),
     numbers=(
@@ -24,11 +24,11 @@ TABLEAU = Struct(
         "slope_seen": "n",  # entries of J of unknowns by themselves, one J ago (faded.py)
     },
     indices={
-        "watched": "n",  # unknowns that may be right at both ends of a step and wrong in between
+        "monitored": "n",  # unknowns that may be right at both ends of a step and wrong in between
         "fades": "n",  # speeds whose law may fade in the step (faded.py)
     },
 )  # fmt: skip
-"""A method of one step with its stages: a tableau, or what a method keeps there. `stepping` reads `watched` too."""
+"""A method of one step with its stages: a tableau, or what a method keeps there. `stepping` reads `monitored` too."""
 
 RULE = Struct(
     copies=("n", "quadrature",),
@@ -79,7 +79,7 @@ EXCHANGE = Struct(
     integers=(
         "support_accelerates",  # a contact holds on a surface whose speed varies
         "algebraic_speeds",  # a contact has held a node without mass: once 1, it stays, and only costs evaluations
-        "newly_held",  # rows hold since the last solve that did not before: their slip is to be evaluated
+        "any_captured",  # rows hold since the last solve that did not before: their slip is to be evaluated
         "unchecked",  # the residual was not looked at since the factors are those in force
         "n_hold_mass", "n_hold_slope", "n_hold_share",
         "zones_differ",  # zones may not be those of J and M
@@ -87,7 +87,7 @@ EXCHANGE = Struct(
         "rows_alone",  # rows from the cache are all that J, M and the factors have changed by
         "assumed",  # what this step relies on of the cache: row_cache.CONSTANT, OF_KIND
         "invalidated",  # what of that has turned out wrong in the run
-        "caught_by_row",  # a row from the cache began to hold: its surface is to be looked at once the step is solved
+        "captured_by_row",  # a row from the cache began to hold: its surface is to be looked at once the step is solved
         "n_own_slopes", "n_own_masses",
         "n_known",  # zones that are remembered times machines
     ),
@@ -100,7 +100,7 @@ EXCHANGE = Struct(
         # the contacts in the zones in force
         "holds": "n",  # 1 for rows that hold now
         "of_algebraic_speed": "n",  # 1 for rows that have held a node without mass
-        "caught": "n",  # 1 for rows that hold now and did not at the start of the step
+        "captured": "n",  # 1 for rows that hold now and did not at the start of the step
         # entries of M in rows that may hold: place, row, column; of J to what moves; of J to other forces, in a circle
         "hold_mass": "n_hold_mass", "hold_mass_row": "n_hold_mass", "hold_mass_column": "n_hold_mass",
         "hold_slope": "n_hold_slope", "hold_slope_row": "n_hold_slope",
@@ -117,8 +117,8 @@ EXCHANGE = Struct(
 )  # fmt: skip
 """`stepping`: rows of J and M that are known for a zone and exchanged without a factorisation (row_cache.py).
 
-`holds`, `caught`, `of_algebraic_speed`, `support_accelerates` and `algebraic_speeds` say besides what holds now: all of
-the room reads them.
+`holds`, `captured`, `of_algebraic_speed`, `support_accelerates` and `algebraic_speeds` say besides what holds now: all
+of the room reads them.
 """
 
 CONTACTS = Struct(

@@ -11,20 +11,20 @@ RUN = Struct(
         "on_chatter",  # chatter.HOLD, STOP, or only told
         "phase",  # of the loop: codes.TRY, ...
         "crossed",  # the piece ends where zones are to be settled: guards fired, or a method asks for it
-        "companion",  # the settlement is of the start of a step that was given up
+        "inconsistent_start",  # the settlement is of the start of a step that was given up
         "judged",  # zones were settled at the point
         "landing",  # the step ends on a time event or the stop
         "retried",  # times the step was tried and too long; 0 once one is accepted
-        "mended",  # the point was made consistent after many rejections, once until a step is accepted
+        "reinitialised",  # the point was made consistent after many rejections, once until a step is accepted
         "stop_asked",  # a machine chatters, and the run is to end for it
         "dropped",  # crossings in a row that a better point undid (arrival.judge_again)
         "first_sample",  # codes.NONE_DUE, SAMPLE_DUE, SETTLING_FOR_IT
-        "narrow_at",  # the step at which to look whether a part of the problem would do
-        "narrowed",  # this is the memory of a part
-        "woken",  # a machine at the boundary of the part has changed: the whole is to be settled
+        "restrict_at",  # the step at which to look whether a part of the problem would do
+        "is_part",  # this is the memory of a part
+        "boundary_switched",  # a machine at the boundary of the part has changed: the whole is to be settled
         "dwell_given", "step_floor_given",  # a user gave them: they count as they are then (chatter.py)
         # counters, see counters.py
-        "steps", "rejected_error", "rejected_nan", "rejected_companion", "rejected_switch", "rejected_cycling",
+        "steps", "rejected_error", "rejected_nan", "rejected_inconsistent", "rejected_switch", "rejected_cycling",
         "rejected_diverged", "rejected_singular", "located", "time_events", "partial_steps",
     ),
     numbers=(

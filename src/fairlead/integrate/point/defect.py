@@ -9,7 +9,7 @@ from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices,
 
 @compiled
 def find_midpoint_defect(problem, point, linear, method, h):
-    """Into `error_vector`: how far the dense output of the unknowns watched is off in the middle of the step.
+    """Into `error_vector`: how far the dense output of the unknowns monitored is off in the middle of the step.
 
     A stiffly accurate method meets the algebraic equations at the end of a step of any size, so its
     error estimate says nothing about a multiplier that follows a force in time: without this, a held
@@ -19,9 +19,9 @@ def find_midpoint_defect(problem, point, linear, method, h):
     estimate (as in Rodas5Pr, Steinebach 2024); it behaves as the error of the dense output.
     """
     find_defect(problem, point, linear, h, 0.5)
-    error, watched = reals(point.at_error_vector, point.n), indices(method.at_watched, point.n)
+    error, monitored = reals(point.at_error_vector, point.n), indices(method.at_monitored, point.n)
     for k in range(point.n):
-        if watched[k] == 0:
+        if monitored[k] == 0:
             error[k] = 0.0
 
 

@@ -73,12 +73,13 @@ def ask_faded(m, h):
     """Mark the speeds to ask about; True if there is any."""
     problem, method, matrices = m.problem, m.method, m.linear.matrices
     n, found = problem.n, False
-    asked, watched, seen = indices(method.at_fades, n), indices(method.at_watched, n), reals(method.at_slope_seen, n)
+    asked, monitored = indices(method.at_fades, n), indices(method.at_monitored, n)
+    seen = reals(method.at_slope_seen, n)
     position, place = indices(problem.at_position_of, n), indices(matrices.at_diagonal_slope, n)
     slopes, switched = reals(matrices.at_jacobian, matrices.n_jacobian), m.events.settling.t_last_switch == m.point.t
     for k in range(n):
         asked[k] = 0
-        if position[k] >= 0 and watched[k] == 0 and follows_within(matrices, k, h):
+        if position[k] >= 0 and monitored[k] == 0 and follows_within(matrices, k, h):
             now = slopes[place[k]]
             if switched or abs(now - seen[k]) > CHANGED * abs(now):
                 asked[k] = 1

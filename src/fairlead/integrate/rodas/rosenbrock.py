@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from fairlead.integrate.codes import DONE
 from fairlead.integrate.linear.products import add_mass_times
-from fairlead.integrate.linear.systems import factorise_step, solve, solve_watched
+from fairlead.integrate.linear.systems import factorise_step, solve, solve_checked
 from fairlead.integrate.loop import method_of
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, jacobian_at, reals
 from fairlead.integrate.one_step import OneStep
@@ -59,7 +59,7 @@ def take_step(m, h):
         stage_right_side(problem, point, m.linear.matrices, method, h, i)
         copy(reals(point.at_b, n), K[i * n : (i + 1) * n])
         if i == 0 and unchecked:
-            status = solve_watched(linear, method.at_K)
+            status = solve_checked(linear, method.at_K)
             if status != DONE:
                 factors.factored_h = 0.0
                 return status

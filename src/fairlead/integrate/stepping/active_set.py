@@ -30,10 +30,10 @@ def begin_set(run, settling, stepping):
     settling.one_by_one = 0
     settling.fewest = settling.n_guards + 1
     settling.stage_from = 0
-    exchange.newly_held = 0
-    caught, row = indices(exchange.at_caught, rule.n), indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
+    exchange.any_captured = 0
+    captured, row = indices(exchange.at_captured, rule.n), indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
     for e in range(exchange.n_hold_mass):
-        caught[row[e]] = 0
+        captured[row[e]] = 0
     nz = settling.n_machines
     copy(indices(settling.at_zones, nz), indices(stepping.contacts.at_zones_at_start, nz))
     remember_pattern(run, settling)

@@ -68,24 +68,24 @@ def prepare_dense_output(m):
 def hold_inside(m):
     """Take slip out of the start and the bulge of a step, or have every point inside it done (`rows_slip`).
 
-    The start has slip in contacts that a settlement has just caught, by rounding: what is more was
+    The start has slip in contacts that a settlement has just captured, by rounding: what is more was
     settled (located_step.py). A step that is taken again from there begins without it.
     """
     point, linear, matrices, recorder = m.point, m.linear, m.linear.matrices, m.recorder
     exchange = m.stepping.exchange
     recorder.rows_slip = 0
-    row, caught = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_caught, point.n)
-    holds, any_holds, any_caught = indices(exchange.at_holds, point.n), False, False
+    row, captured = indices(exchange.at_hold_mass_row, exchange.n_hold_mass), indices(exchange.at_captured, point.n)
+    holds, any_holds, any_captured = indices(exchange.at_holds, point.n), False, False
     for e in range(exchange.n_hold_mass):
         if holds[row[e]] == 1:
             any_holds = True
-            any_caught = any_caught or caught[row[e]] == 1
+            any_captured = any_captured or captured[row[e]] == 1
     if not any_holds:
         return
     if exchange.support_accelerates == 1 or exchange.algebraic_speeds == 1:
         recorder.rows_slip = 1
         return
-    if any_caught:
+    if any_captured:
         take_slip_away(m.problem, point, linear, exchange, point.t, point.at_y)
     entry = indices(exchange.at_hold_mass, exchange.n_hold_mass)
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)

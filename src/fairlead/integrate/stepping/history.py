@@ -1,6 +1,6 @@
 """What is remembered from step to step: slopes, through how many steps a row has held, the length that served.
 
-Step sizes are kept as long as they serve. The error of a step in which a contact is caught or lets go is another than
+Step sizes are kept as long as they serve. The error of a step in which a contact is captured or lets go is another than
 that of the next. Steps that follow it have a new length every time, so new factors, and many are repeated: a chain of
 1000 blocks at accuracy 1e-6 took 7033 steps of 4057 lengths, and 1017 were repeated; it is 4172 and 64. What counts for
 the motion as a whole is their mean length: a chain of 100 reaches an error of 1e-4 with steps of one length in the time

@@ -20,8 +20,8 @@ s is told by the line through two middles of steps, as long as the force is not 
 contact holds. So s is above -1/2 for steps of one length, and below 1/2: negative where the limit was reached in the
 second half of the step before.
 
-A contact whose friction jumps stays where it is once it is caught, until its load is at stiction again. The midpoint
-rule rings, 2 u - y0, and would catch what only slows down. So it is caught for a slip that the end as moved still has.
+A contact whose friction jumps stays where it is once it is captured, until its load is at stiction again. The midpoint
+rule rings, 2 u - y0, and would catch what only slows down. So it is captured for a slip that its moved end still has.
 
 One that comes to rest inside the step and goes on at once, the other way, was not held: nothing is missed by a jump.
 

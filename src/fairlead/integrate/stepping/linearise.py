@@ -21,7 +21,7 @@ def linearise_step(problem, point, linear, stepping, h):
     exchange.n_exchanged, exchange.rows_alone = 0, 0
     if exchange.zones_differ == 1 and rule.linearised == 1:
         same = factors.factored_h == h and factors.factored_theta == rule.theta_now
-        factorised = same and linear.core.core_valid == 1
+        factorised = same and linear.reduced.reduced_valid == 1
         if factors.dense == 1 or not exchange_rows(problem, linear, stepping, factorised):
             forget_jacobian(rule)
             exchange.n_exchanged = 0
@@ -73,9 +73,9 @@ def find_holds(point, matrices, exchange):
     """Mark the rows of contacts that hold, and take J out of them but for shares: there the slip at the end is zero.
 
     They are the rows of algebraic unknowns in which M has an entry now. `support_accelerates` tells of a surface with
-    a speed that varies, `caught` of rows that did not hold before.
+    a speed that varies, `captured` of rows that did not hold before.
     """
-    caught = indices(exchange.at_caught, point.n)
+    captured = indices(exchange.at_captured, point.n)
     holds, slopes = indices(exchange.at_holds, point.n), reals(matrices.at_jacobian, matrices.n_jacobian)
     ft = reals(point.at_ft, point.n)
     entry = indices(exchange.at_hold_mass, exchange.n_hold_mass)
@@ -94,8 +94,8 @@ def find_holds(point, matrices, exchange):
     for e in range(exchange.n_hold_mass):
         if values[entry[e]] != 0.0:
             if holds[row[e]] == 0:
-                caught[row[e]] = 1
-                exchange.newly_held = 1
+                captured[row[e]] = 1
+                exchange.any_captured = 1
             holds[row[e]] = 1
             if ft[row[e]] != 0.0:
                 exchange.support_accelerates = 1

@@ -76,7 +76,7 @@ def add_lag(point):
 
     Where e is too large by c, the step misses -J c h/12, which no difference of its ends shows. A motion that is
     driven through something stiff forgets h J of what it is off in each step. So all steps together leave -c/12, and
-    no more: it needs no CAREFUL. `sharpen` has left c/2 in `minus_slip`. Q
+    no more: it needs no CAREFUL. `sharpen` has left c/2 in `minus_slip`.
     """
     error, left = reals(point.at_error_vector, point.n), reals(point.at_minus_slip, point.n)
     for k in range(point.n):
@@ -122,7 +122,7 @@ def balance_end(m, h):
     y_end, slope, before = reals(point.at_y_end, n), reals(rule.at_mean_slope, n), reals(rule.at_slope_before, n)
     way, minus_rate, error = reals(point.at_b, n), reals(point.at_v, n), reals(point.at_error_vector, n)
     differential, holds = indices(problem.at_differential, n), indices(m.stepping.exchange.at_holds, n)
-    watched = indices(m.method.at_watched, n)
+    monitored = indices(m.method.at_monitored, n)
     to_end = 0.5 * h / (rule.gap + 0.5 * h)
     for k in range(n):
         minus_rate[k] = -slope[k] - to_end * (slope[k] - before[k]) if differential[k] == 1 else 0.0
@@ -139,7 +139,7 @@ def balance_end(m, h):
     for k in range(n):
         if differential[k] == 0:
             y_end[k] += way[k]
-        elif watched[k] == 1:
+        elif monitored[k] == 1:
             error[k] = way[k]
             if follows_within(matrices, k, h):
                 y_end[k] += way[k]

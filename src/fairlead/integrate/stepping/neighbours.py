@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairlead.integrate.linear.condensing import columns_of, core_entries, lay_out
+from fairlead.integrate.linear.condensing import columns_of, lay_out, reduced_entries
 from fairlead.integrate.problem import Floats, Instance, Integers, Problem
 
 MOST_NEIGHBOURS = 8
@@ -153,7 +153,7 @@ def _found(problem: Problem, holder: Integers) -> list[list[int]]:
         speeds.setdefault(machine, set()).add(speed)
         machines.setdefault(speed, set()).add(machine)
     acts: dict[int, set[int]] = {speed: {speed} for speed in machines}
-    entries = core_entries(problem, lay_out(problem))
+    entries = reduced_entries(problem, lay_out(problem))
     for i, j in zip(entries.row.tolist(), entries.column.tolist(), strict=True):
         if i in machines and j in machines:
             acts[i].add(j)

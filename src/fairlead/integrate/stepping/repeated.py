@@ -11,8 +11,8 @@
 
 All but the pivots and the settlement end in `take_again` (events/given_up.py), which alone sets the length of what
 follows; `repeat` gives back the zones of the start before. Not here is what steps that end at every switch share with
-`rodas`: the piece up to a switch as a step of its own (one_step.take_piece), and the companion rule
-(given_up.mend_start).
+`rodas`: the piece up to a switch as a step of its own (one_step.take_piece), and the rule of inconsistent starts
+(given_up.settle_inconsistent_start).
 """
 
 from __future__ import annotations

@@ -92,7 +92,7 @@ def find_residual_of_step(problem, point, matrices, stepping, h, may_be_last):
     kick       what the mean of a law that jumps inside the step is asked to be, else 0 (jump_inside.py)
 
     What M (y1 - y0)/h says there is just that for a contact that held at the start, on a surface of constant
-    speed. For one caught in the step, or on a surface that is accelerated, the law tells the slip; on a node without
+    speed. For one captured in the step, or on a surface that is accelerated, the law tells the slip; on a node without
     mass it tells that at the theta point, where the speed of such a node is.
     """
     rule, exchange = stepping.rule, stepping.exchange
@@ -114,15 +114,15 @@ def find_residual_of_step(problem, point, matrices, stepping, h, may_be_last):
         b[k] = f[k] - kick[k] if holds[k] == 0 else 0.0
     add_mass_times(matrices, point.at_v, point.at_b)
     row = indices(exchange.at_hold_mass_row, exchange.n_hold_mass)
-    caught, minus_slip = indices(exchange.at_caught, n), reals(point.at_minus_slip, n)
-    if exchange.newly_held == 1 or exchange.support_accelerates == 1:
+    captured, minus_slip = indices(exchange.at_captured, n), reals(point.at_minus_slip, n)
+    if exchange.any_captured == 1 or exchange.support_accelerates == 1:
         field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
         for e in range(exchange.n_hold_mass):
-            if holds[row[e]] == 1 and (exchange.support_accelerates == 1 or caught[row[e]] == 1):
+            if holds[row[e]] == 1 and (exchange.support_accelerates == 1 or captured[row[e]] == 1):
                 b[row[e]] = minus_slip[row[e]] / h
-    else:  # the row of a caught contact is linear, so a full move has left no slip
+    else:  # the row of a captured contact is linear, so a full move has left no slip
         for e in range(exchange.n_hold_mass):
-            if holds[row[e]] == 1 and caught[row[e]] == 1:
+            if holds[row[e]] == 1 and captured[row[e]] == 1:
                 b[row[e]] = 0.0
     if exchange.algebraic_speeds == 1:
         find_slip_without_mass(problem, point, stepping, h)
@@ -155,11 +155,11 @@ def find_slip_without_mass(problem, point, stepping, h):
 @compiled
 def scaled_residual(point, linear):
     """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is."""
-    core, factors = linear.core, linear.factors
+    reduced, factors = linear.reduced, linear.factors
     b, scale = reals(point.at_b, point.n), reals(factors.at_row_scale, point.n)
     quadrature = indices(point.at_quadrature, point.n)
-    order = indices(core.at_row_order, core.n_core)
-    rows = point.n if factors.dense == 1 else core.n_core
+    order = indices(reduced.at_row_order, reduced.n_reduced)
+    rows = point.n if factors.dense == 1 else reduced.n_reduced
     largest = 0.0
     for k in range(rows):
         i = k if factors.dense == 1 else order[k]
@@ -205,7 +205,7 @@ def search_line(problem, point, linear, stepping, h, before):
     rule.searched = SEARCHED
     forget_jacobian(rule)
     if problem.call_drift != 0:
-        stepping.exchange.newly_held = 1  # what is taken back of a move leaves slip in rows that were caught
+        stepping.exchange.any_captured = 1  # what is taken back of a move leaves slip in rows that were captured
     y_end, move = reals(point.at_y_end, point.n), reals(rule.at_move, point.n)
     differential = indices(point.at_differential, point.n)
     per_theta = 1.0 / rule.theta_now

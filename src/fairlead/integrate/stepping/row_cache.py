@@ -181,11 +181,11 @@ def rows_are_known(problem, exchange):
     changed = indices(exchange.at_exchanged_machines, problem.n_machines)
     zones = indices(problem.at_zones, problem.n_machines)
     known, own = indices(exchange.at_known, exchange.n_known), indices(exchange.at_own_row, problem.n_machines)
-    holds, caught, all_known = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n), True
+    holds, captured, all_known = indices(exchange.at_holds, problem.n), indices(exchange.at_captured, problem.n), True
     for c in range(exchange.n_exchanged):
         z = changed[c]
         if holds[own[z]] == 1:
-            all_known = all_known and caught[own[z]] == 1
+            all_known = all_known and captured[own[z]] == 1
         else:
             all_known = all_known and known[zones[z] * problem.n_machines + z] == CONSTANT
     return all_known
@@ -210,7 +210,7 @@ def exchange_rows(problem, linear, stepping, factorised):
     zones = indices(exchange.at_zones, exchange.n_machines)
     then = indices(exchange.at_zones_linearised, exchange.n_machines)
     own = indices(exchange.at_own_row, exchange.n_machines)
-    holds, caught = indices(exchange.at_holds, exchange.n), indices(exchange.at_caught, exchange.n)
+    holds, captured = indices(exchange.at_holds, exchange.n), indices(exchange.at_captured, exchange.n)
     count = 0
     for c in range(exchange.n_exchanged):
         z = changed[c]
@@ -218,9 +218,9 @@ def exchange_rows(problem, linear, stepping, factorised):
         then[z] = zones[z]
         now = note_hold(matrices, exchange, z)
         if now == 1 and holds[own[z]] == 0:
-            caught[own[z]] = 1
-            exchange.newly_held = 1
-            exchange.caught_by_row = 1
+            captured[own[z]] = 1
+            exchange.any_captured = 1
+            exchange.captured_by_row = 1
         holds[own[z]] = now
         if factorised:
             count = use_row(linear, exchange, z, count)
@@ -250,17 +250,19 @@ def find_exchanged(problem, stepping):
 
 @compiled
 def use_row(linear, exchange, z, count):
-    """Mark the columns of the core that the row of machine z is in, `count` are marked; how many then are."""
-    matrices, core, factors = linear.matrices, linear.core, linear.factors
+    """Mark the columns of the reduced matrix that the row of machine z is in, `count` are marked; how many then are."""
+    matrices, reduced, factors = linear.matrices, linear.reduced, linear.factors
     starts = indices(exchange.at_own_slope_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_slopes, exchange.n_own_slopes)
-    values, used = reals(matrices.at_jacobian, matrices.n_jacobian), reals(core.at_jacobian_used, matrices.n_jacobian)
-    column = indices(core.at_jacobian_column, matrices.n_jacobian)
+    values = reals(matrices.at_jacobian, matrices.n_jacobian)
+    used = reals(reduced.at_jacobian_used, matrices.n_jacobian)
+    column = indices(reduced.at_jacobian_column, matrices.n_jacobian)
     count = use_entries(factors, starts, entries, values, used, column, z, count)
     starts = indices(exchange.at_own_mass_starts, exchange.n_machines + 1)
     entries = indices(exchange.at_own_masses, exchange.n_own_masses)
-    values, used = reals(matrices.at_mass, matrices.n_mass), reals(core.at_mass_used, matrices.n_mass)
-    return use_entries(factors, starts, entries, values, used, indices(core.at_mass_column, matrices.n_mass), z, count)
+    values, used = reals(matrices.at_mass, matrices.n_mass), reals(reduced.at_mass_used, matrices.n_mass)
+    column = indices(reduced.at_mass_column, matrices.n_mass)
+    return use_entries(factors, starts, entries, values, used, column, z, count)
 
 
 @compiled
@@ -277,20 +279,20 @@ def use_entries(factors, starts, entries, values, used, column, z, count):
 @compiled
 def solve_exchanged(problem, point, linear, stepping, h):
     """Move `y_end` by the solution for a residual that is zero but in the rows just exchanged."""
-    core, factors, exchange = linear.core, linear.factors, stepping.exchange
+    reduced, factors, exchange = linear.reduced, linear.factors, stepping.exchange
     factors.solves += 1
     exchange.assumed |= CONSTANT
-    if exchange.newly_held == 1:
+    if exchange.any_captured == 1:
         field_at(problem.call_drift, (problem.context, point.t + h, point.at_y_end, point.at_minus_slip))
-    n = core.n_core
-    x, place = reals(core.at_core_x, n), indices(factors.at_row_place, problem.n)
+    n = reduced.n_reduced
+    x, place = reals(reduced.at_reduced_x, n), indices(factors.at_row_place, problem.n)
     changed = indices(exchange.at_exchanged_machines, problem.n_machines)
     own = indices(exchange.at_own_row, problem.n_machines)
     for k in range(n):
         x[k] = 0.0
     for c in range(exchange.n_exchanged):
         x[place[own[changed[c]]]] = residual_of_row(point, linear.matrices, stepping, changed[c], h)
-    substitute(factors, core.at_core_x)
+    substitute(factors, reduced.at_reduced_x)
     order, y_end = indices(factors.at_column_order, n), reals(point.at_y_end, problem.n)
     differential = indices(problem.at_differential, problem.n)
     b, per_theta = reals(point.at_b, problem.n), 1.0 / stepping.rule.theta_now
@@ -298,9 +300,10 @@ def solve_exchanged(problem, point, linear, stepping, h):
         j = order[k]
         b[j] = x[k]
         y_end[j] += per_theta * x[k] if differential[j] == 1 else x[k]
-    position, speed = indices(core.at_position, core.n_positions), indices(core.at_position_speed, core.n_positions)
-    ratio = reals(core.at_position_ratio, core.n_positions)
-    for k in range(core.n_positions):
+    position = indices(reduced.at_position, reduced.n_positions)
+    speed = indices(reduced.at_position_speed, reduced.n_positions)
+    ratio = reals(reduced.at_position_ratio, reduced.n_positions)
+    for k in range(reduced.n_positions):
         if speed[k] >= 0:
             y_end[position[k]] += per_theta * ratio[k] * b[speed[k]]
 
@@ -329,8 +332,8 @@ def invalidate_assumed(stepping):
 
 @compiled
 def watch_surfaces(problem, point, matrices, exchange):
-    """Of contacts caught by their known rows: whether the surface of one varies its speed."""
-    exchange.caught_by_row = 0
+    """Of contacts captured by their known rows: whether the surface of one varies its speed."""
+    exchange.captured_by_row = 0
     if exchange.support_accelerates == 1:
         return
     field_at(problem.call_drift, (problem.context, point.t, point.at_y_end, point.at_minus_slip))
@@ -338,9 +341,9 @@ def watch_surfaces(problem, point, matrices, exchange):
     column = indices(exchange.at_hold_mass_column, exchange.n_hold_mass)
     entry, values = indices(exchange.at_hold_mass, exchange.n_hold_mass), reals(matrices.at_mass, matrices.n_mass)
     y_end = reals(point.at_y_end, problem.n)
-    holds, caught = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n)
+    holds, captured = indices(exchange.at_holds, problem.n), indices(exchange.at_captured, problem.n)
     minus_slip = reals(point.at_minus_slip, problem.n)
     for e in range(exchange.n_hold_mass):
         left = SPEED_ROUNDING * (1.0 + abs(values[entry[e]] * y_end[column[e]]))
-        if holds[row[e]] == 1 and caught[row[e]] == 1 and abs(minus_slip[row[e]]) > left:
+        if holds[row[e]] == 1 and captured[row[e]] == 1 and abs(minus_slip[row[e]]) > left:
             exchange.support_accelerates = 1

@@ -20,7 +20,7 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals, switch_a
 
 HANDED_ON, RUNS_ON = 0.8, 0.7
 """Share of an excess that reaches a neighbour; share of a front's last advance that is taken for granted. Above
-one, contacts are let go that must be caught again, and catching takes with it some that had to go."""
+one, contacts are let go that must be captured again, and catching takes with it some that had to go."""
 LONGEST_FRONT = 64
 MET = 1
 """What `met` says of a machine that lets go. It is 0 of others, and the place in `fired` + 2 of one that was handed a

@@ -23,23 +23,23 @@ that, its slip is zero at the point u.
 `take_theta_step` is one loop: a solve (`solve_once`), then guards (`find_violators`), then switches (`switch_zones`).
 What steers it, where that is set and read; it is in `rule` (R), `exchange` (E), `settling` (S), or local to the loop:
 
-    solves           solves since zones switched last      the loop                   judge_residual, the residual
-    solved           one in this step at all               the loop                   solve_once
-    size             the residual before the last move     approach_laws              judge_residual, search_line
-    R midway         the matrix is met on the way          solve_once                 halve_or_replan, underway.py
-    R searched       moves were taken back, or in vain     search_line                judge_residual
-    R linearised     J and M are evaluated                 forget_jacobian            linearise_step
-    R locates        zones never change in a step          engine.py, trial.py        find_violators
-    R frozen         they do not in this one               solve_in_zones             find_violators, predict_fronts
-    E zones_differ   zones may not be those of J and M     whoever switches zones     linearise_step
-    E n_exchanged    machines whose rows were exchanged    linearise_step             learn_constants, rows_are_known
-    E rows_alone     that is all that has changed          linearise_step             solve_once
-    E unchecked      the residual was not looked at        linearise_step             the loop, where f is linear
-    E newly_held     rows hold that did not before         find_holds, exchange_rows  find_residual_of_step
-    E caught_by_row  a row of the cache began to hold      exchange_rows              approach_laws
-    E assumed        what the step relies on of the cache  take_row, solve_exchanged  approach_laws, switch_zones
-    S passes         switches of zones in this step        follow_guards              switch_zones
-    S one_by_one     how few violators switch              follow_guards              solve_once, active_set.py
+    solves             solves since zones switched last      the loop                   judge_residual, the residual
+    solved             one in this step at all               the loop                   solve_once
+    size               the residual before the last move     approach_laws              judge_residual, search_line
+    R midway           the matrix is met on the way          solve_once                 halve_or_replan, underway.py
+    R searched         moves were taken back, or in vain     search_line                judge_residual
+    R linearised       J and M are evaluated                 forget_jacobian            linearise_step
+    R locates          zones never change in a step          engine.py, trial.py        find_violators
+    R frozen           they do not in this one               solve_in_zones             find_violators, predict_fronts
+    E zones_differ     zones may not be those of J and M     whoever switches zones     linearise_step
+    E n_exchanged      machines whose rows were exchanged    linearise_step             learn_constants, rows_are_known
+    E rows_alone       that is all that has changed          linearise_step             solve_once
+    E unchecked        the residual was not looked at        linearise_step             the loop, where f is linear
+    E any_captured     rows hold that did not before         find_holds, exchange_rows  find_residual_of_step
+    E captured_by_row  a row of the cache began to hold      exchange_rows              approach_laws
+    E assumed          what the step relies on of the cache  take_row, solve_exchanged  approach_laws, switch_zones
+    S passes           switches of zones in this step        follow_guards              switch_zones
+    S one_by_one       how few violators switch              follow_guards              solve_once, active_set.py
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def take_theta_step(m, h):
             return verdict
         solved = True
         solves += 1
-        exchange.newly_held = 0
+        exchange.any_captured = 0
         find_violators(m, h)
         if guards.n_fired > 0:
             solves = 0
@@ -127,7 +127,7 @@ def begin_step(m, h):
     forget_jumps(stepping.rule)
     begin_set(m.run, m.events.settling, stepping)
     predict_fronts(m, h)
-    exchange.assumed, exchange.caught_by_row, stepping.rule.searched = 0, 0, 0
+    exchange.assumed, exchange.captured_by_row, stepping.rule.searched = 0, 0, 0
     if m.problem.linear == 0 and stepping.rule.locates == 1:
         forget_jacobian(stepping.rule)
 
@@ -160,7 +160,7 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
     Where f is not linear `search_line` has left the residual after a solve.
     """
     matrices, rule, exchange = linear.matrices, stepping.rule, stepping.exchange
-    exchange.newly_held |= exchange.caught_by_row
+    exchange.any_captured |= exchange.captured_by_row
     size = previous
     if problem.linear == 1:
         find_residual_of_step(problem, point, matrices, stepping, h, solves > 0)
@@ -171,7 +171,7 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
         verdict, size = judge_residual(problem, point, linear, stepping, solves, previous)
         if verdict == DONE:
             move_quadratures(point, h)
-            if exchange.caught_by_row == 1:
+            if exchange.captured_by_row == 1:
                 watch_surfaces(problem, point, matrices, exchange)
         elif exchange.assumed > 0:
             invalidate_assumed(stepping)

@@ -164,14 +164,14 @@ def follow_surfaces(problem, point, exchange, h):
     """
     y, y_end, chord = reals(point.at_y, problem.n), reals(point.at_y_end, problem.n), reals(point.at_y_probe, problem.n)
     minus_slip = reals(point.at_minus_slip, problem.n)
-    holds, caught = indices(exchange.at_holds, problem.n), indices(exchange.at_caught, problem.n)
+    holds, captured = indices(exchange.at_holds, problem.n), indices(exchange.at_captured, problem.n)
     of_algebraic_speed = indices(exchange.at_of_algebraic_speed, problem.n)
     moving, b = indices(problem.at_differential, problem.n), reals(point.at_b, problem.n)
     for k in range(problem.n):
         chord[k] = 0.5 * (y[k] + y_end[k]) if moving[k] == 1 else y_end[k]
     field_at(problem.call_drift, (problem.context, point.t + 0.5 * h, point.at_y_probe, point.at_minus_slip))
     for k in range(problem.n):
-        if holds[k] == 1 and caught[k] == 0 and of_algebraic_speed[k] == 0:
+        if holds[k] == 1 and captured[k] == 0 and of_algebraic_speed[k] == 0:
             b[k] = -8.0 * minus_slip[k] / h
 
 

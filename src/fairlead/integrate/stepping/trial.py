@@ -26,11 +26,11 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import BUFFER_FULL, DONE, GO_ON, INACCURATE, JUMPS, MIDDLE, TRY, WIDEN
+from fairlead.integrate.codes import BUFFER_FULL, DONE, GO_ON, INACCURATE, JUMPS, MIDDLE, REACTIVATE, TRY
 from fairlead.integrate.events.arrival import arrive
-from fairlead.integrate.events.crossing import COMPANION, CROSSING, find_first_crossing
+from fairlead.integrate.events.crossing import CROSSING, INCONSISTENT_START, find_first_crossing
 from fairlead.integrate.events.given_apart import judge_given
-from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, mend_start, settle_at_start
+from fairlead.integrate.events.given_up import TOO_FAR, TOO_LONG, settle_at_start, settle_inconsistent_start
 from fairlead.integrate.events.pace import accept, arrive_at_instant, is_instant, over_budget, propose
 from fairlead.integrate.loop import Method
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
@@ -108,9 +108,9 @@ def finish_inside(m, h, status):
                 return halve_or_replan(m, h)
     if status != DONE:
         return halve_unsolved(m, h, status)
-    if run.narrowed == 1 and settling.passes > 0 and boundary_changed(settling, m.stepping.contacts):
+    if run.is_part == 1 and settling.passes > 0 and boundary_changed(settling, m.stepping.contacts):
         give_back_zones(guards, stepping)
-        return WIDEN
+        return REACTIVATE
     if rule.theta_now == MIDDLE:
         refine_end(problem, point, linear, stepping, h)
     run.error = find_error(m, h)
@@ -146,8 +146,8 @@ def finish_located(m, h):
         return reject_error(m, h)
     hold_inside(m)
     found = find_first_crossing(m, h)
-    if found == COMPANION:
-        return mend_start(m, h)
+    if found == INCONSISTENT_START:
+        return settle_inconsistent_start(m, h)
     if found == CROSSING and run.cut_at < 1.0 and piece_is_rough(m, h):
         return take_piece(m, h)
     recorder.quadratures_off = 1 if problem.n_quadratures > 0 else 0

@@ -51,7 +51,7 @@ class Part:
         hand_over(mine, made)
         return dataclasses.replace(self, problem=made, whole=whole)
 
-    def give_back(self, t: float, y: Floats) -> None:
+    def prolong(self, t: float, y: Floats) -> None:
         """Give the whole, whose unknowns are y [n], what is entrained at t, and what its controllers know."""
         call(self.problem, SPREAD, t, y[self.unknowns], y)
         hand_over(self.problem, self.whole)

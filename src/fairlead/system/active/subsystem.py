@@ -164,7 +164,7 @@ def _own_unknowns(system: Instance, laws: Sequence[Booleans]) -> Booleans:
 
 
 def _reached_by(system: Instance) -> tuple[Integers, Integers]:
-    """Entries (row, column) along which motion spreads: all but those of hubs and of the ledger."""
+    """Entries (row, column) along which motion spreads: all but those of dense rows and of the ledger."""
     n = system.n
     row = np.concatenate([system.pattern.rows, system.mass_pattern.rows])
     column = np.concatenate([np.repeat(np.arange(n), np.diff(p.starts)) for p in (system.pattern, system.mass_pattern)])

@@ -103,7 +103,7 @@ class System:
     memory: Memory = field(repr=False)  # arrays that code reads; those that a run changes as they are at first
     working: Working = field(repr=False)
     timed_tables: list[PlacedTable] = field(repr=False)  # what is given in time
-    narrows: Callable[[Any], Any] | None = field(default=None, repr=False)  # see subsystem.py; None for a part
+    subsystem_of: Callable[[Any], Any] | None = field(default=None, repr=False)  # see subsystem.py; None for a part
 
     def __post_init__(self) -> None:
         """Its arrays are read by all runs, in all threads; those of an Instance are its own."""
@@ -359,9 +359,9 @@ class Instance(System):
             controller.know(what)
 
     @functools.cached_property
-    def narrowing(self) -> Any:
+    def subsystem(self) -> Any:
         """Cuts out what moves, see subsystem.py; None for a part."""
-        return None if self.narrows is None else self.narrows(self)
+        return None if self.subsystem_of is None else self.subsystem_of(self)
 
 
 def begun(system: System, weights: Weights, record: Recording, piece: Bytes) -> Instance:
