@@ -9,6 +9,7 @@ worker. And each would have pytest rewrite the assertions of all files.
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import functools
 import gc
@@ -59,11 +60,17 @@ def read_share(config: pytest.Config) -> None:
 def compile_rooms() -> None:
     """Have machine code of the functions of rooms that tests call in the cache, typed in one process."""
     gc.disable()  # what numba makes stays till the end
+    room = importlib.import_module("tests.integrate.rooms").room
     for file in sorted((Path(__file__).parent / "integrate").glob("test_*.py")):
-        if "tests.integrate.rooms" in file.read_text(encoding="utf-8"):
-            for made in vars(importlib.import_module(f"tests.integrate.{file.stem}")).values():
-                if isinstance(made, functools._lru_cache_wrapper) and not inspect.signature(made).parameters:
-                    made()
+        text = file.read_text(encoding="utf-8")
+        if "tests.integrate.rooms" not in text:
+            continue
+        for made in vars(importlib.import_module(f"tests.integrate.{file.stem}")).values():
+            if isinstance(made, functools._lru_cache_wrapper) and not inspect.signature(made).parameters:
+                made()
+        for call in ast.walk(ast.parse(text)):
+            if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "room":
+                room(*map(ast.literal_eval, call.args))
 
 
 if __name__ == "__main__":
