@@ -29,7 +29,7 @@ def test_a_corner_of_the_radius_is_where_the_angle_comes_to_it():
     """At a steady 3 rad/s the angle of 6 rad is reached at 2 s: 1 m up to there, then thicker by 0.1 m/rad."""
     drum, radius = Wave(linear_table([0.0, 4.0], [3.0, 3.0])), linear_table([0.0, 6.0, 12.0], [1.0, 1.0, 1.6])
     speed = line_speed(drum, radius, 0.0, 4.0)
-    for t in (0.5, 1.999, 2.001, 3.0):
+    for t in (0.5, 2.0, 2.0005, 3.0):
         assert speed(t) == pytest.approx(3.0 * (1.0 + 0.1 * max(3.0 * t - 6.0, 0.0)), abs=1e-6)
 
 
