@@ -17,6 +17,8 @@ from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
 from fairlead.analysis.record.limits import read_limits
+from fairlead.analysis.record.met_together import met_together
+from fairlead.analysis.record.met_together import remark as of_blows
 from fairlead.analysis.record.names import unknown_signals
 from fairlead.analysis.record.never_closed import NeverClosed
 from fairlead.analysis.record.no_rebound import remark as no_rebound
@@ -117,7 +119,8 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
         summary = _summary(outcome, watch, asked, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.longest_dwell
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
-                                     no_rebound(system, outcome.not_given_back)) if said]  # fmt: skip
+                                     no_rebound(system, outcome.not_given_back),
+                                     of_blows(summary["met_together"])) if said]  # fmt: skip
         found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.open_.remarks(),
                  *watch.gave_way.remarks(), *watch.went_round.remarks(), *inexact]
         summary["remarks"] = [*header["remarks"], *found] if told else []
@@ -252,6 +255,7 @@ def _summary(outcome: Outcome, watch: Watch, asked: Run, compiled: float, wall: 
         "projected": _projected(outcome, watch.system),
         "changed_starts": changed_starts(outcome.problem, outcome.begun),
         "released_together": None if watch.together is None else watch.together.plain(),
+        "met_together": met_together(watch.system, outcome.joined, outcome.first_joined),
         "gave_way": watch.gave_way.plain(), "went_round": watch.went_round.plain(),
         "strains": watch.strains.summary(), "pushes": pushes(watch.extremes, watch.recording.recorded, watch.accuracy),
         "jumps": watch.jumps(), "below_weight": watch.below.summary(),

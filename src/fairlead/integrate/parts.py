@@ -50,7 +50,7 @@ CARRIED = (
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
-BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost", "not_given_back")
+BY_UNKNOWN = ("y", "holds", "rested", "rejections_by_unknown", "lost", "not_given_back", "joined", "first_joined")
 SLOPES = ("slope", "curvature", "mean_slope", "slope_before", "slope_earlier", "mean_before")
 BY_GUARD = ("g", "g_before", "g_end", "continuous")
 BY_MACHINE = (

@@ -340,6 +340,10 @@ class Outcome:
     """[n]: energy lost in impacts, J, by the row that held."""
     not_given_back: Floats
     """[n]: the fastest slip of a row that should rebound and had not yet, slow as it was; else not above zero."""
+    joined: Floats
+    """[n]: how many impulses a row that rebounds took together with others."""
+    first_joined: Floats
+    """[n]: when it took the first of them, s."""
     wall: float
     """Seconds spent, all included."""
     loop_wall: float

@@ -40,9 +40,9 @@ def take_first_sample(problem, run, point, events):
     copy(indices(events.settling.at_zones_given, problem.n_machines), zones)
     at_time_at(problem.call_at_time, (problem.context, point.t, point.at_y))
     slope, lost = reals(point.at_slope, problem.n), reals(point.at_lost, problem.n)
-    not_given_back = reals(point.at_not_given_back, problem.n)
+    not_given_back, joined = reals(point.at_not_given_back, problem.n), reals(point.at_joined, problem.n)
     for k in range(problem.n):
-        slope[k] = lost[k] = not_given_back[k] = 0.0
+        slope[k] = lost[k] = not_given_back[k] = joined[k] = 0.0
     run.first_sample = NONE_DUE
     events.guards.n_fired = 0
     begin_settling(problem, run, point, events)

@@ -58,7 +58,7 @@ from fairlead.integrate.events.impulse_load import (
     takes_any,
 )
 from fairlead.integrate.events.impulse_zones import change_zones_for, turn_round
-from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound
+from fairlead.integrate.events.rebound import NO_REBOUND, REBOUND, RUBS, find_rebound, note_joined
 from fairlead.integrate.linear.systems import factorise_consistent, solve, solve_checked
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, jacobian_at, reals, slip_at
 from fairlead.integrate.point.controller import weigh
@@ -108,6 +108,7 @@ def resolve_impact(m):
     if back == RUBS:
         return RUBBED
     if back == REBOUND:
+        note_joined(problem, point, matrices, least_impulse(problem, point))
         throw_back(m)
     change_speeds(problem, point, matrices, back, supports)
     if problem.n_integrals > 0:

@@ -12,6 +12,11 @@ Several coefficients in one impact have no such proof (Newton's law may create e
 taken. A stop that meets parts again at e times the speed; one that touched before, and links, stay at rest. A rebound
 below the error weights is none: a ball comes to rest. Friction under an impulsive normal force would be thrown back
 along the surface by this law; that is refused.
+
+Stops that an impulse joins take it together, and give it back together. One after the other they would pass it on,
+each with a rebound of its own, and may end elsewhere: neither order is more right than the other, where nothing tells
+which is first. A rebound below the error weights leaves a stop that touches and would have parted; a gap within the
+tolerance of a guard is none. `note_joined` keeps who took an impulse so.
 """
 
 from __future__ import annotations
@@ -53,7 +58,7 @@ def find_rebound(problem, point, matrices, floor):
             some = some or given[k] > 0.0
     if not some:
         return NO_REBOUND
-    while spread(problem, point, matrices, floor):
+    while spread(problem, point, matrices, floor, point.at_y_probe, False):
         pass
     dv, back = reals(point.at_u, n), reals(point.at_x, n)
     rubs = False
@@ -84,10 +89,33 @@ def note(problem, point, floor, size):
 
 
 @compiled
-def spread(problem, point, matrices, floor):
-    """Give the least e to all that an impulse or an inertia joins; True if any changed."""
+def note_joined(problem, point, matrices, floor):
+    """Count, for stops that give something back, the impulses that they took together, and keep when the first was."""
     n = problem.n
-    e, b, dv = reals(point.at_y_probe, n), reals(point.at_b, n), reals(point.at_u, n)
+    b, label, many = reals(point.at_b, n), reals(point.at_x, n), reals(point.at_f, n)
+    given, takes = reals(problem.at_rebound, n), indices(problem.at_takes_impulse, n)
+    times, first = reals(point.at_joined, n), reals(point.at_first_joined, n)
+    for k in range(n):
+        label[k], many[k] = float(k), 0.0
+    while spread(problem, point, matrices, floor, point.at_x, True):
+        pass
+    for k in range(n):
+        if takes[k] == UNLIMITED and given[k] > 0.0 and abs(b[k]) > floor:
+            many[int(label[k])] += 1.0
+    for k in range(n):
+        if takes[k] == UNLIMITED and given[k] > 0.0 and abs(b[k]) > floor and many[int(label[k])] > 1.0:
+            first[k] = point.t if times[k] == 0.0 else first[k]
+            times[k] += 1.0
+
+
+@compiled
+def spread(problem, point, matrices, floor, at_least, by_rest):
+    """Give the least of these numbers to all that an impulse or an inertia joins; True if any changed.
+
+    `by_rest`: also by a body whose speed does not change, as one that is struck from both sides.
+    """
+    n = problem.n
+    e, b, dv = reals(at_least, n), reals(point.at_b, n), reals(point.at_u, n)
     takes, differential = indices(problem.at_takes_impulse, n), indices(problem.at_differential, n)
     starts, rows = indices(matrices.at_jacobian_starts, n + 1), indices(matrices.at_jacobian_rows, matrices.n_jacobian)
     values, speed_of = reals(matrices.at_jacobian, matrices.n_jacobian), indices(problem.at_speed_of, n)
@@ -96,7 +124,7 @@ def spread(problem, point, matrices, floor):
         if takes[k] > 0 and abs(b[k]) > floor:
             for p in range(starts[k], starts[k + 1]):
                 i = speed_of[rows[p]]
-                joined = dv[i] != 0.0 if differential[i] == 1 else takes[i] > 0 and abs(b[i]) > floor
+                joined = by_rest or dv[i] != 0.0 if differential[i] == 1 else takes[i] > 0 and abs(b[i]) > floor
                 if joined and values[p] != 0.0 and e[i] != e[k]:
                     e[i] = e[k] = min(e[i], e[k])
                     changed = True
@@ -104,7 +132,8 @@ def spread(problem, point, matrices, floor):
     j_of = indices(matrices.at_mass_columns, matrices.n_mass)
     for p in range(matrices.n_mass):
         i, j = i_of[p], j_of[p]
-        if mass[p] != 0.0 and differential[i] == 1 and dv[i] != 0.0 and dv[j] != 0.0 and e[i] != e[j]:
+        moves = by_rest or (dv[i] != 0.0 and dv[j] != 0.0)
+        if mass[p] != 0.0 and differential[i] == 1 and moves and e[i] != e[j]:
             e[i] = e[j] = min(e[i], e[j])
             changed = True
     return changed

@@ -78,6 +78,7 @@ POINT = Struct(
         "y_unsettled": "n", "slope_unsettled": "n",  # and before forces are looked for in zones that may have none
         "lost": "n",  # [J] energy lost in impacts, by the row that held
         "not_given_back": "n",  # by row, the fastest meeting too slow to give anything back; -1: one gave before
+        "joined": "n", "first_joined": "n",  # by row: impulses that stops took together, and when the first was
         "begun": "n",  # the point as it was settled at the start
     },
     indices={
