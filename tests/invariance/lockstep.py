@@ -35,7 +35,7 @@ FACTS = (
     "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now",
     "algebraic_speeds", "support_accelerates", "limits_vary", "expecting", "assumed", "invalidated", "allowed",
     "allowed_before", "block_steps", "n_switched", "t_cut", "localising", "h_wanted", "growth", "landing",
-    "crossed", "cut_at", "stalls", "look", "nearness", "linearised", "searched",
+    "crossed", "cut_at", "stalls", "lookahead", "nearness", "linearised", "searched",
 )  # fmt: skip
 """What is shown of a step beside its length and its error."""
 
