@@ -65,6 +65,18 @@ def test_the_norm_is_the_largest_weighted_error_of_what_counts_and_says_whose_it
     assert at.number["worst"] == sizes.argmax()
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_the_norm_is_the_largest_quotient_to_its_last_digit_and_of_equal_ones_the_first(seed):
+    rng = np.random.default_rng(seed)
+    n, weight = 400, rng.uniform(0.1, 2.0, 400)
+    share = 0.7 * (1.0 + 2.0**-52 * rng.integers(-3, 4, n))  # apart by some units in the last place
+    v = share * weight * rng.choice([-1.0, 1.0], n)
+    at = memory({"n": n}, weight=weight, unweighed=np.zeros(n, dtype=np.int64))
+    sizes = np.abs(v) / weight
+    assert norm()(at, v) == sizes.max()
+    assert at.number["worst"] == sizes.argmax()
+
+
 def test_the_norm_of_what_is_no_number_is_none_even_where_it_does_not_count():
     at = memory({"n": 2}, weight=[1.0, 1.0], unweighed=[0, 1])
     assert math.isnan(norm()(at, np.array([1.0, np.inf])))

@@ -113,6 +113,8 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         **plan.arrays,
     }  # fmt: skip
     numbers["n_integrals"] = int(given["integral"].sum())
+    given["asked_stiff"] = asked_stiff(given)
+    numbers["n_asked_stiff"] = len(given["asked_stiff"])
     numbers["takes_impulses"] = int((given["takes_impulse"] >= RIGID).any())
     numbers["has_circles"] = int((given["circle"] > 0).any())
     numbers["rigid_circles"] = int(((given["takes_impulse"] >= RIGID) & (given["circle"] > 0)).any())
@@ -152,6 +154,12 @@ def of_balance(problem: Problem) -> Integers:
     found[np.asarray(problem.mass_pattern.rows)] = found[columns_of(problem.mass_pattern)] = 0
     found[diagonal(problem.pattern, len(found)) < 0] = 0
     return found * (1 + np.asarray(problem.summed, dtype=np.int64))
+
+
+def asked_stiff(given: Mapping[str, np.ndarray]) -> Integers:
+    """Unknowns that may be shown in balance: those of balances, and speeds with a slope and an inertia of their own."""
+    own = (given["diagonal_slope"] >= 0) & (given["diagonal_mass"] >= 0)
+    return np.flatnonzero((given["of_balance"] > 0) | ((given["position_of"] >= 0) & own)).astype(np.int64)
 
 
 def _of_contacts(problem: Problem) -> Integers:

@@ -116,6 +116,7 @@ RECORDER = Struct(
         "rows_slip",  # what holds is given no slip in every row, not once for the step (dense_output.py)
         "any_stiff",  # what the step has of `is_stiff`: 0, stiff.OF_SPEEDS or OF_BALANCES
         "shown_apart",  # `apart` counts at this event: as `any_stiff`
+        "n_asked_stiff",
     ),
     numbers=(
         "every",  # [s] of the grid
@@ -127,6 +128,7 @@ RECORDER = Struct(
     },
     indices={
         "is_stiff": "n",  # 1 for unknowns that are shown where their law balances (stiff.py)
+        "asked_stiff": "n_asked_stiff",  # those that may be
         "row_side": "row_capacity",  # codes.ORDINARY, BEFORE, ...
         "event_machine": "event_capacity", "event_before": "event_capacity", "event_after": "event_capacity",
         "event_guard": "event_capacity",

@@ -37,6 +37,8 @@ NO_AMPLITUDE = 1e-6
 """A motion from rest: in its time scale it moves by less than this share of a weight."""
 NO_LIMIT_BELOW = (GROW_LIMIT / SAFETY) ** -5.0
 """Of an error below this little more is known than that it is small: the step grows by all it may."""
+SURELY = 1.0 - 4.0 * 2.0**-52
+"""What is at most this share of a number by its product with a weight is no more than that by its quotient."""
 IDLE_ERROR = 1e-3
 """Below this a step was not limited by its error, and says nothing about the time scale."""
 
@@ -61,16 +63,16 @@ def weigh(point, at_other):
 def weighted_norm(point, at_v):
     """Largest |v_i| / weight_i without quadratures and gauges; nan if any v_i is. Its place goes to `worst`."""
     v, weight, unweighed = reals(at_v, point.n), reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
-    largest = 0.0
+    largest = below = 0.0
     for k in range(point.n):
-        if v[k] == 0.0:
+        if abs(v[k]) <= below * weight[k]:  # no larger, whatever the rounding: most are, and a product is no division
             continue
         size = abs(v[k]) / weight[k]
         if not isfinite(v[k]):
             point.worst = k
             return v[k] - v[k]
         if unweighed[k] == 0 and size > largest:
-            largest = size
+            largest, below = size, SURELY * size
             point.worst = k
     return largest
 

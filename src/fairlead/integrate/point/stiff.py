@@ -40,7 +40,7 @@ def mark_stiff(problem, matrices, recorder, h):
     values = reals(matrices.at_jacobian, matrices.n_jacobian)
     for k in range(problem.n):
         stiff[k] = 0
-    for k in range(problem.n):
+    for k in indices(recorder.at_asked_stiff, recorder.n_asked_stiff):
         if balances[k] > 0 and (balances[k] == 1 or means) and values[slope[k]] != 0.0:
             stiff[k] = 1
             found = OF_BALANCES
@@ -61,5 +61,5 @@ def mark_beside(problem, matrices, stiff, k, h):
     position, diagonal = indices(problem.at_position_of, problem.n), indices(matrices.at_diagonal_mass, matrices.n)
     for p in range(starts[k], starts[k + 1]):
         j = rows[p]
-        if position[j] >= 0 and diagonal[j] >= 0 and abs(values[p]) * h > masses[diagonal[j]]:
+        if stiff[j] == 0 and position[j] >= 0 and diagonal[j] >= 0 and abs(values[p]) * h > masses[diagonal[j]]:
             stiff[j] = 1

@@ -6,7 +6,7 @@ from math import inf
 
 from fairlead.integrate.codes import GRID, INSIDE, INSIDE_PASSED, ORDINARY, PARABOLA, PASSED, QUARTIC
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
-from fairlead.integrate.point.interpolant import interpolate
+from fairlead.integrate.point.interpolant import interpolate, interpolate_one
 from fairlead.integrate.record.between import balance_stiff, take_slip_away, zones_inside, zones_of_end
 
 
@@ -154,19 +154,26 @@ def rows_inside(run, point, settling, recorder):
         return 0
     if recorder.on_grid == 0:
         return recorder.most_inside
-    share = (run.t_piece - point.t) / run.h
-    y, end, middle = reals(point.at_y, point.n), reals(point.at_y_piece, point.n), reals(point.at_x, point.n)
-    weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
-    interpolate(point, 0.5 * share, point.at_x)
-    curved = False
-    for k in range(point.n):
-        off = abs(middle[k] - 0.5 * (y[k] + end[k]))
-        curved = curved or (unweighed[k] == 0 and off > weight[k])
-    if not curved:
+    if not off_chord(run, point):
         return 0
-    if recorder.most_inside == QUARTIC and (off_parabola(run, point, 0.25) or off_parabola(run, point, 0.75)):
-        return QUARTIC
+    if recorder.most_inside == QUARTIC:
+        interpolate(point, 0.5 * ((run.t_piece - point.t) / run.h), point.at_x)
+        if off_parabola(run, point, 0.25) or off_parabola(run, point, 0.75):
+            return QUARTIC
     return PARABOLA
+
+
+@compiled
+def off_chord(run, point):
+    """True if an unknown is off the straight line in the middle of the piece by its weight."""
+    y, end = reals(point.at_y, point.n), reals(point.at_y_piece, point.n)
+    middle = 0.5 * ((run.t_piece - point.t) / run.h)
+    weight, unweighed = reals(point.at_weight, point.n), indices(point.at_unweighed, point.n)
+    for k in range(point.n):
+        off = abs(interpolate_one(point, middle, k) - 0.5 * (y[k] + end[k]))
+        if off > weight[k] and unweighed[k] == 0:
+            return True
+    return False
 
 
 @compiled

@@ -60,12 +60,15 @@ def find_error(m, h):
 @compiled
 def end_is_finite(point):
     """True if all unknowns at the end of the step are finite; else `worst` is the first that is not."""
-    y_end = reals(point.at_y_end, point.n)
+    y_end, others = reals(point.at_y_end, point.n), 0
     for k in range(point.n):
+        others += 0 if abs(y_end[k]) < inf else 1  # no way out of the loop: so it goes by vectors
+    if others == 0:
+        return True
+    for k in range(point.n - 1, -1, -1):
         if not isfinite(y_end[k]):
             point.worst = k
-            return False
-    return True
+    return False
 
 
 @compiled
@@ -157,7 +160,8 @@ def anything_moves(point, rule):
     """True if a controlled unknown changes in the step by more than NOTHING_MOVES of its weight."""
     y, y_end, weight = reals(point.at_y, point.n), reals(point.at_y_end, point.n), reals(point.at_weight, point.n)
     controlled = indices(rule.at_controlled, point.n)
-    found = False
     for k in range(point.n):
-        found = found or (controlled[k] == 1 and abs(y_end[k] - y[k]) > NOTHING_MOVES * weight[k])
-    return found
+        way = abs(y_end[k] - y[k])
+        if controlled[k] == 1 and way > NOTHING_MOVES * weight[k]:
+            return True
+    return False
