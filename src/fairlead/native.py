@@ -244,14 +244,18 @@ def _prepare_llvm() -> None:
             llvm.add_symbol(name, never)
 
 
-def target_machine() -> Any:
-    """A new LLVM target machine for the chosen processor; every execution engine takes over the one it is given."""
+def target_machine(cpu: str = "") -> Any:
+    """A new LLVM target machine for the processor of that name, else the chosen one.
+
+    Every execution engine takes over the one that it is given.
+    """
     import llvmlite.binding as llvm
 
     _prepare_llvm()
     chosen = processor()
+    name, features = (cpu, "") if cpu else (chosen.cpu, chosen.features)
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=chosen.cpu, features=chosen.features, opt=3, jit=True, codemodel="jitdefault"
+        cpu=name, features=features, opt=3, jit=True, codemodel="jitdefault"
     )
 
 

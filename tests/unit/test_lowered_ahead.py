@@ -10,6 +10,7 @@ import pytest
 import fairlead
 import fairlead.kernels.lowered_ahead as lowered_ahead
 import fairlead.native as native
+import fairlead.system.callbacks.table as table
 from fairlead.component import Component, Law, Parameter, Translational
 from fairlead.component.parameters import make
 from fairlead.component.values import Variant, variant_of
@@ -99,3 +100,27 @@ def test_a_class_of_a_user_is_traced_whatever_the_file_holds(
     given = lowered(variants[0], 0)
     lowered_ahead.write(file, {lowered_ahead.name_of(variant, 0): given})
     assert lowered_ahead.find(variant, 0) is None
+
+
+def test_what_goes_with_every_model_is_brought_optimised(
+    tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The machine code is made of the file alone, and of sources that are others it is not taken."""
+
+    def refuse(*given: Any, **named: Any) -> None:
+        raise AssertionError("was lowered anew")
+
+    name, path = table.name_ahead(), tmp_path / "bundled.kernels"
+    lowered_ahead.write(path, {name: table.compiled_ahead("generic")})
+    monkeypatch.setattr(lowered_ahead, "FILE", path)
+    lowered_ahead._stored.cache_clear()
+    monkeypatch.setattr("fairlead.kernels.lowering.lower_together", refuse)
+    build = table._build()
+    assert set(build.functions) == set(table.CALLBACKS)
+    monkeypatch.setenv("FAIRLEAD_CACHE", str(tmp_path / "cache"))
+    code = native.load_or_compile("callbacks", lambda: build)
+    assert len(set(code.address.values())) == len(table.CALLBACKS)
+    monkeypatch.setattr(table, "name_ahead", lambda: "callbacks of other sources")
+    with pytest.raises(AssertionError, match="lowered anew"):
+        table._build()
+    lowered_ahead._stored.cache_clear()

@@ -38,8 +38,10 @@ from fairlead.processor import VARIABLE
 SETTINGS = {VARIABLE: "generic", "NUMBA_LOOP_VECTORIZE": "1", "NUMBA_SLP_VECTORIZE": "0"}
 WIDE = {"x86_64": "x86-64-v3", "AMD64": "x86-64-v3"}
 """Processor whose vectors are laid out, by architecture; elsewhere those that every processor has."""
-ONE_VECTOR = "-force-vector-interleave=1"
-"""One vector a turn of a loop. Several made the machine code a tenth larger and nothing faster."""
+ONE_VECTOR, ONE_TURN = "-force-vector-interleave=1", "-unroll-runtime=false"
+"""One vector a turn of a loop, and no loop of unknown length is written out several times. Several vectors made the
+machine code a tenth larger and nothing faster; turns written out doubled the time it takes to make the code native.
+"""
 
 
 def loop_bitcode(engine: Engine) -> bytes:
@@ -157,7 +159,8 @@ if __name__ == "__main__":
     import llvmlite.binding as llvm
 
     gc.disable()  # what numba makes stays till the end
-    llvm.set_option("", ONE_VECTOR)
+    for option in (ONE_VECTOR, ONE_TURN):
+        llvm.set_option("", option)
     if sys.argv[1] == SEPARATOR:
         make_here(_told(sys.argv[1:]))
     else:

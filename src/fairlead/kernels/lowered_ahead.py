@@ -1,11 +1,12 @@
 """Kernels of bundled parts that were traced and lowered when a wheel was built, so that a first run needs no SymPy.
 
     given = find(variant, rated)       facts and LLVM code of a kernel, or None: then it is traced
+    code = find_module(name)           LLVM code of functions that go with every model (system/callbacks), or None
     write(path, kernels)               what `building/bundled_kernels.py` does
 
-LLVM's passes have not run on the code, and run here for this processor: the machine code is that of a kernel traced
-here. The file tells the sources it was made of, the system and the LLVM that wrote it; one that does not fit is not
-used. An editable install has none.
+LLVM's passes have not run on a kernel, and run here for this processor: the machine code is that of a kernel traced
+here. They have run on what goes with every model, as on the loop (integrate/bitcode.py). The file tells the sources it
+was made of, the system and the LLVM that wrote it; one that does not fit is not used. An editable install has none.
 """
 
 from __future__ import annotations
@@ -35,6 +36,13 @@ class Given(NamedTuple):
 
     facts: dict[str, Any]
     bitcode: bytes
+
+
+def find_module(name: str) -> bytes | None:
+    """Bitcode of several functions that the installed package holds under a name, if it fits; it is optimised."""
+    stored = _stored()
+    given = None if stored is None else stored.given(name)
+    return None if given is None else given.bitcode
 
 
 def find(variant: Variant, rated: int) -> Given | None:

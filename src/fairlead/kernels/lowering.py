@@ -77,13 +77,14 @@ def lower_together(
     file: str = "<text>",
     *,
     unrolled: bool = True,
+    cpu: str = "",
 ) -> dict[str, Lowered]:
     """LLVM of several functions in one module, by name: of each its source, arguments and result, as `lower` has them.
 
-    What they share is compiled once, and short loops are written out several times if they may be `unrolled`.
-    Raises LoweringError.
+    What they share is compiled once, and short loops are written out several times if they may be `unrolled`. Vectors
+    are those of the processor that is named, else of the chosen one. Raises LoweringError.
     """
-    text = _optimised(llvm.parse_assembly(written(functions, shared, file)), unrolled)
+    text = _optimised(llvm.parse_assembly(written(functions, shared, file)), unrolled, cpu)
     return {name: Lowered(name, text) for name in functions}
 
 
@@ -151,8 +152,8 @@ def _stored(tree: ast.FunctionDef) -> set[str]:
     return found
 
 
-def _optimised(module: llvm.ModuleRef, unrolled: bool) -> str:
-    machine = target_machine()
+def _optimised(module: llvm.ModuleRef, unrolled: bool, cpu: str = "") -> str:
+    machine = target_machine(cpu)
     module.verify()
     options = llvm.create_pipeline_tuning_options(speed_level=2)
     options.loop_unrolling = unrolled

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import functools
+import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from fairlead.native import Build, Native, digest, load_or_compile
+from fairlead.kernels.lowered_ahead import Given, find_module
+from fairlead.native import Build, Native, Optimised, digest, load_or_compile
 from fairlead.system.callbacks.algebraic_rates import add_rates, find_known, find_roots, off_balance, share_rates
 from fairlead.system.callbacks.derivatives import assemble, fix, jacobian, mass, slopes
 from fairlead.system.callbacks.evaluation import (
@@ -82,13 +84,34 @@ SHARED = (
 @functools.cache
 def callbacks() -> Native:
     """The compiled callbacks; `address` holds the C address of each."""
+    return load_or_compile(digest(*_sources()), _build)
+
+
+def _sources() -> list[str]:
     here, kernels = Path(__file__).parent, Path(__file__).parents[2] / "kernels"
     files = sorted(here.glob("*.py")) + [kernels / f"{name}.py" for name in ("lowering", "lowered_values", "layout")]
-    sources = [file.read_text(encoding="utf-8") for file in files]
-    return load_or_compile(digest(*sources), _build)
+    return [file.read_text(encoding="utf-8") for file in files]
+
+
+def name_ahead() -> str:
+    """Under which a wheel holds the callbacks, optimised: a text that tells what they were made of."""
+    return f"callbacks {hashlib.sha256(chr(0).join(_sources()).encode()).hexdigest()}"
+
+
+def compiled_ahead(cpu: str) -> Given:
+    """The callbacks for a wheel, in the vectors of the processor of that name."""
+    import llvmlite.binding as llvm
+
+    from fairlead.kernels.lowering import lower_together
+
+    one, *_ = lower_together(CALLBACKS, SHARED, cpu=cpu).values()  # each tells the module of all
+    return Given({}, llvm.parse_assembly(one.inspect_llvm()).as_bitcode())
 
 
 def _build() -> Build:
+    if (code := find_module(name_ahead())) is not None:
+        return Build({}, {name: Optimised(name, code) for name in CALLBACKS})
+
     from fairlead.kernels.lowering import lower_together
 
     return Build({}, dict(lower_together(CALLBACKS, SHARED)))
