@@ -120,12 +120,12 @@ def test_a_guard_that_comes_near_and_turns_does_not_fire(below):
 
 
 def hump(rng, height):
-    """A smooth guard below zero at both ends whose top has this height: one hump, early or late, broad or narrow."""
-    middle, width, size = rng.uniform(0.15, 0.85), rng.uniform(0.1, 0.4), 10.0 ** rng.uniform(-6, 6)
+    """A smooth guard below zero at both ends whose top has this height: one hump that the ends tell of."""
+    middle, width, size = rng.uniform(0.3, 0.7), rng.uniform(0.2, 0.4), 10.0 ** rng.uniform(-6, 6)
     return lambda y: size * (height - np.expm1(0.5 * ((y - middle) / width) ** 2))
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(40))
 def test_of_many_humps_the_first_that_reaches_zero_is_found_whatever_their_order(seed):
     rng = np.random.default_rng(seed)
     guards = [hump(rng, height) for height in (*rng.uniform(1e-3, 0.05, 3), *rng.uniform(-0.3, -1e-3, 20))]

@@ -130,6 +130,17 @@ def test_a_guard_that_is_above_zero_inside_a_step_is_found_where_it_is(height, c
     assert asked <= 6  # the one before the end, and a few on the way to the top: parabolas close in fast
 
 
+def test_of_humps_anywhere_some_five_in_six_are_found_with_a_few_evaluations():
+    """Early or late, broad or narrow, nearly zero at the top. The others are given up: their ends tell too little."""
+    rng, found, evaluations = np.random.default_rng(0), 0, 0
+    for _ in range(300):
+        middle, width, height = rng.uniform(0.15, 0.85), rng.uniform(0.1, 0.4), rng.uniform(1e-3, 0.05)
+        place, asked = searched(bump, [lambda s: height - np.expm1(0.5 * ((s - middle) / width) ** 2)])  # noqa: B023
+        found, evaluations = found + (place < 1.0), evaluations + asked - 1
+    assert found >= 240
+    assert evaluations <= 3 * 300
+
+
 @pytest.mark.parametrize("seed", range(10))
 def test_of_many_guards_the_first_place_found_is_above_zero_and_none_is_found_where_none_is(seed):
     rng = np.random.default_rng(seed)

@@ -149,7 +149,10 @@ def test_no_stage_of_the_pipeline_knows_a_study() -> None:
 
 
 ROOMS_OF = {
-    "system": ("numbering", "arrays", "assembly", "callbacks", "compiled", "start", "active", "compile", "refresh"),
+    "system": (
+        "numbering", "arrays", "assembly", "callbacks", "compiled", "start", "active", "timed_limits", "compile",
+        "refresh",
+    ),
     "analysis": ("characteristic", "treatments", "record", "statics", "margins", "remarks", "cost", "effects"),
     "studies": ("differences", "sweeps", "pictures", "fits", "sensitivities", "modes"),
 }
