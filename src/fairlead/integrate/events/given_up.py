@@ -54,7 +54,7 @@ def settle_inconsistent_start(m, h):
     """Settle the inconsistent start of the step h, of which the guards in `fired` were above zero from the start."""
     run, point = m.run, m.point
     run.rejected_inconsistent += 1
-    if run.adaptive == 1 and DOUBT * h >= smallest_step(run, point) and is_doubtful(m):
+    if run.adaptive == 1 and DOUBT * h >= smallest_step(run, point) and is_doubtful(m.problem, run, point, m.events):
         return take_much_shorter(run, m.events.guards, h)
     if run.judged == 0:  # not known by the equations yet: a load that tops out at its limit here is held
         m.events.guards.n_fired = 0
@@ -62,6 +62,6 @@ def settle_inconsistent_start(m, h):
 
 
 @compiled
-def is_doubtful(m):
+def is_doubtful(problem, run, point, events):
     """True if the start of the step was settled, and by its slopes the guards in `fired` do not rise there."""
-    return m.run.judged == 1 and fall_from_start(m.problem, m.run, m.point, m.events)
+    return run.judged == 1 and fall_from_start(problem, run, point, events)

@@ -89,7 +89,7 @@ def judge_step(address, t_end, at_y_end, at_rate_end, at_rooted, n_rooted, floor
         return 1
     found = find_first_crossing(m, h)
     if found == INCONSISTENT_START:
-        if h > 2.0 * floor and is_doubtful(m):
+        if h > 2.0 * floor and is_doubtful(problem, run, point, m.events):
             return 1
         settle_inconsistent_start(m, 0.0)
         return 0
