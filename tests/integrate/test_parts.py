@@ -28,7 +28,7 @@ OF_A_STEP = {
     "jacobian_fresh", "algebraic_speeds", "linearised", "any_captured", "unchecked", "expecting", "rows_slip",
     "reduced_kind", "reduced_valid", "reduced_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ",
     "rows_alone", "assumed", "invalidated",
-    "captured_by_row", "limits_vary", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
+    "captured_by_row", "time_dependent_limits", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
     "searched", "frozen", "instant", "midway", "replanned", "theta_now",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""

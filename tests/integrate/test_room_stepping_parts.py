@@ -149,7 +149,7 @@ def test_limits_are_read_at_the_theta_point_and_slips_at_the_end_but_of_nodes_wi
     kept = fields(at, 1, guards=(guards, 3))
     room("stepping.active_set.evaluate_guards_of_step", ("",), "d")(at, H)
     assert at.array["g_end"].tolist() == [0.25, 1.5, 2.25 if algebraic_speeds else 2.5]
-    assert at.number["limits_vary"] == 1
+    assert at.number["time_dependent_limits"] == 1
     assert kept
 
 

@@ -33,8 +33,8 @@ CAUSES = ("rejected_error", "rejected_nan", "rejected_inconsistent", "rejected_s
           "rejected_diverged", "rejected_singular")  # fmt: skip
 FACTS = (
     "phase", "passes", "stage", "one_by_one", "failed", "retried", "theta_raise", "theta_now",
-    "algebraic_speeds", "support_accelerates", "limits_vary", "expecting", "assumed", "invalidated", "allowed",
-    "allowed_before", "block_steps", "n_switched", "t_cut", "localising", "h_wanted", "growth", "landing",
+    "algebraic_speeds", "support_accelerates", "time_dependent_limits", "expecting", "assumed", "invalidated",
+    "allowed", "allowed_before", "block_steps", "n_switched", "t_cut", "localising", "h_wanted", "growth", "landing",
     "crossed", "cut_at", "stalls", "lookahead", "nearness", "linearised", "searched",
 )  # fmt: skip
 """What is shown of a step beside its length and its error."""

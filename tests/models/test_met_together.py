@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from fairlead.analysis.record.met_together import met_together
 from tests.conftest import Scene
 
 ENGINES = pytest.mark.parametrize("engine", ["rodas", "ida"])
@@ -156,3 +158,24 @@ def test_a_rebound_too_slow_to_count_leaves_a_row_that_takes_the_next_blow_toget
     else:
         assert ends(result) == pytest.approx(one_by_one(masses, met, e, [0, 1, 0]), abs=1e-8)
     assert bool(told(result)) == together
+
+
+@pytest.mark.parametrize(("first", "told_of"), [
+    ([0.1, 0.1, 0.0, 0.5], ["one", "two", "late"]), ([0.1, 0.1, 0.1, 0.0], ["one", "two", "beside"]),
+    ([0.0, 0.1, 0.1, 0.0], []), ([0.0, 0.1, 0.1, 0.5], ["late"]),
+])  # fmt: skip
+def test_a_stop_that_joins_one_which_was_told_before_is_told_too_and_two_between_the_same_bodies_are_not(
+    first: list[float], told_of: list[str]
+) -> None:
+    """Stops by row: between bodies 0 and 1, 1 and 2, once more 1 and 2, and 2 and 3."""
+    between, names = [(0, 1), (1, 2), (1, 2), (2, 3)], ["one", "two", "beside", "late"]
+    entries = sorted((body, 4 + row) for row, pair in enumerate(between) for body in pair)
+    starts = np.searchsorted([column for column, _ in entries], np.arange(9))
+    system = SimpleNamespace(
+        n=8, mass_pattern=SimpleNamespace(starts=starts, rows=np.array([row for _, row in entries])),
+        numbering=SimpleNamespace(unknowns=[SimpleNamespace(name=f"{one}.force") for one in [*4 * [""], *names]]),
+    )  # fmt: skip
+    at = np.array([0.0] * 4 + first)
+    found = met_together(system, np.where(at > 0.0, 1.0, 0.0), at)
+    assert {one["stop"] for one in found["first"]} == set(told_of)
+    assert found["count"] == len(told_of)

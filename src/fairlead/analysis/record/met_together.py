@@ -17,6 +17,7 @@ from fairlead.system.compiled.system import System
 from fairlead.system.numbering.tolerances import Floats
 
 MOST_TOLD = 20
+"""Stops in run.json; `count` has them all. A remark names the first few."""
 
 
 def met_together(system: System, times: Floats, first: Floats) -> dict[str, Any]:
@@ -33,14 +34,17 @@ def met_together(system: System, times: Floats, first: Floats) -> dict[str, Any]
 
 
 def _in_order(system: System, times: Floats, first: Floats) -> list[int]:
-    """The rows, but not those whose first blow was shared with stops between the same bodies: these have no order."""
+    """The rows, but not those whose first blow was shared with stops between the same bodies: these have no order.
+
+    A row that was the only one to begin at an instant shared its blow with one that had begun before.
+    """
     starts, rows = system.mass_pattern.starts, system.mass_pattern.rows
     columns = np.repeat(np.arange(system.n), np.diff(starts))
     bodies = {k: frozenset(columns[rows == k].tolist()) for k in np.flatnonzero(times > 0.0).tolist()}
-    together: dict[float, set[frozenset[int]]] = {}
+    together: dict[float, list[frozenset[int]]] = {}
     for k, between in bodies.items():
-        together.setdefault(float(first[k]), set()).add(between)
-    return [k for k in bodies if len(together[float(first[k])]) > 1]
+        together.setdefault(float(first[k]), []).append(between)
+    return [k for k in bodies if len(together[float(first[k])]) == 1 or len(set(together[float(first[k])])) > 1]
 
 
 def _name(system: System, row: int) -> str:
@@ -53,14 +57,12 @@ def remark(found: dict[str, Any]) -> str:
         return ""
     told: Sequence[dict[str, Any]] = found["first"]
     begin = told[0]["t"]
-    names = [one["stop"] for one in told if one["t"] == begin]
+    names = [one["stop"] for one in told if one["t"] == begin][:MOST_NAMED]
     others = found["count"] - len(names)
-    more = f" (and {others} more later)" if others else ""
-    cut = f" and {len(names) - MOST_NAMED} more" if names[MOST_NAMED:] else ""
+    more = f" (and {others} more, then or later)" if others else ""
     return (
-        f"t = {begin:.6g} s: {', '.join(names[:MOST_NAMED])}{cut}{more} took a blow together and gave it back "
-        "together. "
+        f"t = {begin:.6g} s: {', '.join(names)}{more} took a blow together and gave it back together. "
         "One after the other they may end elsewhere, and nothing tells the order where bodies touch: as given, or "
         "since a rebound below ten error weights is none. Gaps between them decide it; met_together in run.json has "
-        "all of them."
+        f"the first {MOST_TOLD} of them."
     )

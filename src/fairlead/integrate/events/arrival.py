@@ -50,7 +50,8 @@ START_ITERATIONS, SETTLE_ITERATIONS = 40, 12
 
 
 MOST_DROPPED = 4
-"""Crossings in a row that a better point may undo: steps between them become short at once."""
+"""Crossings in a row that a better point may undo: steps between them become short at once. That of a load that goes no
+further is undone however often."""
 
 EARLY = 4.0
 """The look ahead, in the time by which a crossing is early: after twice that time the mean load is at its limit."""
@@ -213,7 +214,8 @@ def judge_again(problem, run, point, events):
     known to. A contact that lets go by that too early, by a time tau, would be caught at once: its load is below its
     limit until then. So the settlement looks ahead by `EARLY` times tau, as far as it goes, and what is farther off is
     dropped: it fires in the next step, which begins at the better point and is as short as its guard is near. Not so in
-    a corner (corners.py), where the equations may have their point on the other side.
+    a corner (corners.py), where the equations may have their point on the other side. A load that goes no further is
+    dropped wherever it is (limits.py).
     """
     guards, settling = events.guards, events.settling
     settling.least_lookahead = 0.0

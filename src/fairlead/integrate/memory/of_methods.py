@@ -127,7 +127,7 @@ CONTACTS = Struct(
         "expecting",  # contacts were let go in this step because fronts are expected to run on
         "has_limits",  # the problem says which guards are limits of held forces
         "n_body_speed", "n_neighbours",
-        "limits_vary",  # a limit was seen to vary within a step: once 1, it stays
+        "time_dependent_limits",  # a limit was seen to vary within a step: once 1, it stays
         "n_switched",  # how many machines `switched` lists
         "n_suspects",  # how many guards `suspects` lists
         "n_free_guards",  # guards of machines that hold nothing

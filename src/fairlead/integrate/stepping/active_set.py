@@ -65,7 +65,7 @@ def evaluate_guards_of_step(m, h):
     problem, run, point, guards, settling = m.problem, m.run, m.point, m.events.guards, m.events.settling
     rule, exchange, contacts = m.stepping.rule, m.stepping.exchange, m.stepping.contacts
     evaluate_guards(problem, run, guards, point.t + h, point.at_y_end, guards.at_g_end)
-    constant = problem.linear == 1 and contacts.limits_vary == 0
+    constant = problem.linear == 1 and contacts.time_dependent_limits == 0
     seldom = constant and settling.one_by_one == 0 and (settling.passes > 0 or run.steps % LOOK_AT_LIMITS != 0)
     if exchange.algebraic_speeds == 0 and (contacts.has_limits == 0 or seldom):
         return
@@ -81,7 +81,7 @@ def evaluate_guards_of_step(m, h):
     for i in range(problem.n_guards):
         if is_limit[i] == 1:
             if abs(g[i] - g_at_theta[i]) > tolerance[i]:
-                contacts.limits_vary = 1
+                contacts.time_dependent_limits = 1
             g[i] = g_at_theta[i]
     if exchange.algebraic_speeds == 1:
         machine = indices(problem.at_guard_machine, problem.n_guards)

@@ -93,7 +93,7 @@ def row_of(problem, stepping, z):
 
 
 @compiled
-def take_row(problem, matrices, stepping, z):
+def update_row(problem, matrices, stepping, z):
     """Put the row of machine z for the zone it is in into J and M; it must be known."""
     exchange = stepping.exchange
     like = row_of(problem, stepping, z)
@@ -214,7 +214,7 @@ def exchange_rows(problem, linear, stepping, factorised):
     count = 0
     for c in range(exchange.n_exchanged):
         z = changed[c]
-        take_row(problem, matrices, stepping, z)
+        update_row(problem, matrices, stepping, z)
         then[z] = zones[z]
         now = note_hold(matrices, exchange, z)
         if now == 1 and holds[own[z]] == 0:

@@ -37,7 +37,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     E unchecked        the residual was not looked at        linearise_step             the loop, where f is linear
     E any_captured     rows hold that did not before         find_holds, exchange_rows  find_residual_of_step
     E captured_by_row  a row of the cache began to hold      exchange_rows              approach_laws
-    E assumed          what the step relies on of the cache  take_row, solve_exchanged  approach_laws, switch_zones
+    E assumed          what the step relies on of the cache  update_row, solve_exchanged  approach_laws, switch_zones
     S passes           switches of zones in this step        follow_guards              switch_zones
     S one_by_one       how few violators switch              follow_guards              solve_once, active_set.py
 """
