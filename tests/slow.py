@@ -161,6 +161,15 @@ LEFT_TO_TEST_ALL = (
     "tests/models/test_line_search.py::test_a_singular_pattern_*",
     "tests/models/test_with_values.py::*[long_route*",
     "tests/models/test_slices.py::*guidance_route_electric*",
+    "tests/models/test_slices.py::test_what_circles_*[60]",
+    # a study of 400 seeds each: one noise of each kind of loss is played
+    "tests/studies/test_fit_intervals.py::test_intervals_of_robust_*[soft_l1-*",
+    "tests/studies/test_fit_intervals.py::test_intervals_of_robust_*[arctan-*",
+    "tests/studies/test_fit_intervals.py::test_intervals_of_robust_*[cauchy-normal]",
+    "tests/studies/test_fit_intervals.py::test_records_whose_noise_*",
+    # its laws are the longest to compile
+    "tests/unit/test_friction_verbs.py::test_friction_tells_stiction_only_*[maxwell_slip-*",
+    "tests/components/test_curves.py::test_every_treatment_slides_*[maxwell_slip]",
     "tests/integrate/test_linear.py::test_one_plan_serves_*[0-*",
     # of several variants of one mechanism the plainest or the shortest is played
     "tests/fmu/test_export.py::test_the_belt_goes_as_in_fairlead_to_the_last_bit[2]",
