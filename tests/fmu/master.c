@@ -2,33 +2,46 @@
 
    master LIBRARY TOKEN H STEPS OUTPUTS INSTANCES
    prints the outputs of all instances after every step in hexadecimal, one line each, and the size of the process [kB]
-   before the first and after the last step. */
+   before the first and after the last step (0 on Windows). */
 #include "fmi3Functions.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+#define OPEN(file) LoadLibraryA(file)
+#define SYMBOL(library, name) GetProcAddress(library, name)
+typedef HMODULE Library;
+static const char *why(void) { return "the library cannot be loaded"; }
+static long kilobytes(void) { return 0; }
+#else
+#include <dlfcn.h>
 #include <sys/resource.h>
+#define OPEN(file) dlopen(file, RTLD_NOW | RTLD_LOCAL)
+#define SYMBOL(library, name) dlsym(library, name)
+typedef void *Library;
+static const char *why(void) { return dlerror(); }
+static long kilobytes(void) {
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    return used.ru_maxrss;
+}
+#endif
 
 static void complain(fmi3InstanceEnvironment e, fmi3Status status, fmi3String category, fmi3String text) {
     (void)e;
     fprintf(stderr, "%d %s: %s\n", status, category, text);
 }
 
-static long kilobytes(void) {
-    struct rusage used;
-    getrusage(RUSAGE_SELF, &used);
-    return used.ru_maxrss;
-}
-
-#define FIND(name) name##TYPE *name = (name##TYPE *)dlsym(library, #name)
+#define FIND(name) name##TYPE *name = (name##TYPE *)SYMBOL(library, #name)
 #define MUST(call) if ((call) != fmi3OK) return fprintf(stderr, "failed: " #call "\n"), 1
 
 int main(int argc, char *argv[]) {
     if (argc != 7) return 2;
-    void *library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
-    if (library == NULL) return fprintf(stderr, "%s\n", dlerror()), 1;
+    Library library = OPEN(argv[1]);
+    if (library == NULL) return fprintf(stderr, "%s\n", why()), 1;
     FIND(fmi3InstantiateCoSimulation);
     FIND(fmi3EnterInitializationMode);
     FIND(fmi3ExitInitializationMode);

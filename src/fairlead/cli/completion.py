@@ -51,6 +51,13 @@ def parameters(ctx: typer.Context, incomplete: str) -> list[str]:
     return [f"{before}{comma}{name}" for name in _fitting(names, last)]
 
 
+def platforms(incomplete: str) -> list[str]:
+    """Systems that libraries are made for."""
+    from fairlead.fmu.platforms import PLATFORMS
+
+    return _fitting(PLATFORMS, incomplete)
+
+
 def signals(ctx: typer.Context, incomplete: str) -> list[str]:
     """Signals of the netlist."""
     from fairlead.analysis.record.declared_signals import signals_of

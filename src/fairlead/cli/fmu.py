@@ -43,6 +43,13 @@ Tunable = Annotated[
                  default_factory=list, show_default=False),
 ]  # fmt: skip
 
+Platforms = Annotated[
+    list[str],
+    typer.Option("--platform", metavar="NAME", help="A system that it is to run on, as aarch64-linux; all but "
+                 "x86_64-linux are linked by ziglang. Repeatable.",
+                 default_factory=list, show_default="x86_64-linux", autocompletion=completion.platforms),
+]  # fmt: skip
+
 
 def fmu(
     action: Annotated[
@@ -54,6 +61,7 @@ def fmu(
     inputs: Inputs,
     outputs: Outputs,
     tunable: Tunable,
+    platforms: Platforms,
     version: Annotated[
         Version | None, typer.Option("--fmi", help="Version of the standard, of an FMU.", show_default="3")
     ] = None,
@@ -64,7 +72,7 @@ def fmu(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Write a model as a co-simulation FMU (docs/fmu.md) or as a C library (docs/coupling.md), for Linux on x86-64.
+    """Write a model as a co-simulation FMU (docs/fmu.md) or as a C library (docs/coupling.md).
 
     Neither needs Python where it runs. Inputs, outputs and tunable parameters are those of the netlist's interface
     block and of --in, --out and --tunable. A C compiler links it.
@@ -82,13 +90,14 @@ def fmu(
     if action is Action.LIBRARY:
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always", RunWarning)
-            folder = export_library(model, out, inputs=inputs, outputs=outputs, tunable=tunable)
+            folder = export_library(model, out, inputs=inputs, outputs=outputs, tunable=tunable, platforms=platforms)
         if not quiet:
             echo(f"Library, header and an example in {folder}/")
             for one in told:
                 echo(str(one.message))
         return
     version = version or Version.THREE
-    written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs, tunable=tunable)
+    written = export(model, out, version=int(version.value), inputs=inputs, outputs=outputs, tunable=tunable,
+                     platforms=platforms)  # fmt: skip
     if not quiet:
         echo(f"FMI {version.value}.0 for co-simulation in {written}")

@@ -4,8 +4,9 @@
     export_library(model, "belt")               a shared library with a C header; see docs/coupling.md
 
 An FMU is a run as it stands before its start (`image.py`: its memory, with what is an address written down), the loop
-and the laws in machine code for any processor of the architecture (`machine_code.py`), and a wrapper in C (`c/`). A C
-compiler links them (`compiler.py`), and they are packed with a description (`description.py`, `archive.py`).
+and the laws in machine code for any processor of an architecture (`machine_code.py`), and a wrapper in C (`c/`). A C
+compiler links them (`compiler.py`), for each system that is asked for (`platforms.py`), and they are packed with a
+description (`description.py`, `archive.py`).
 
 Given a Stepping (`outside.py`). Does what its `advance` does, in C: the same loop on the same memory. Says `UsageError`
 for what cannot go along (`refusals.py`).

@@ -1,11 +1,11 @@
-"""The C compiler of this machine, which compiles the wrapper and links a library.
+"""The C compiler, which compiles the wrapper and links a library.
 
-Taken is what the environment names as CC, else cc, gcc or clang, else the package `ziglang`.
+For this machine's system it is what the environment names as CC, else cc, gcc or clang, else the package `ziglang`. For
+all others it is that package, which brings their C libraries.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import pathlib
 import shlex
@@ -16,44 +16,63 @@ import tempfile
 from collections.abc import Mapping, Sequence
 
 from fairlead.errors import UsageError
+from fairlead.fmu.platforms import HERE, PLATFORMS, Platform, has_ziglang
 
 NAMES = ("cc", "gcc", "clang")
 FLAGS = ("-shared", "-fPIC", "-O2", "-std=gnu11", "-fvisibility=hidden", "-ffp-contract=off", "-fno-strict-aliasing")
-LINKED = ("-Wl,--build-id=none", "-Wl,--no-undefined", "-s", "-lm")
-"""Nothing in the library tells when or where it was made."""
-PATIENCE = 300.0
-"""Seconds that a compiler may take; the wrapper takes about one."""
+PATIENCE = 1200.0
+"""Seconds that a compiler may take: a few, but ziglang makes the C library of a system, once: minutes for Windows."""
 LAST_LINES = 20
 ANOTHER = "Name another one in the environment (CC), or none: then cc, gcc, clang or ziglang is taken."
 
 
+def compiler_for(platform: Platform) -> list[str]:
+    """The command of the C compiler for a system. Raises UsageError where there is none."""
+    if platform.name == HERE:
+        return compiler()
+    if has_ziglang():
+        return _ziglang(platform)
+    raise UsageError(
+        f"--platform {platform.name}: such a library is linked by ziglang, which is not installed.\n"
+        f"    pip install 'fairlead[zig]', or leave it out: without it the library is for {HERE}."
+    )
+
+
 def compiler() -> list[str]:
-    """The command of the C compiler. Raises UsageError where there is none."""
+    """The command of the C compiler of this machine. Raises UsageError where there is none."""
     if asked := shlex.split(os.environ.get("CC", "")):
         return asked
     if found := next(filter(None, map(shutil.which, NAMES)), None):
         return [found]
-    if importlib.util.find_spec("ziglang") is not None:
-        return [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-linux-gnu.2.17"]
+    if has_ziglang():
+        return _ziglang(PLATFORMS[HERE])
     raise UsageError(
         f"There is no C compiler here ({', '.join(NAMES)}), which links an FMU.\n"
         "    Install one, name one in the environment (CC), or: pip install 'fairlead[zig]', which brings ziglang."
     )
 
 
-def linked(files: Mapping[str, bytes]) -> bytes:
-    """A shared library of C files and objects, by name. Raises UsageError where the compiler fails."""
-    command = compiler()
+def _ziglang(platform: Platform) -> list[str]:
+    return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
+
+
+def linked(files: Mapping[str, bytes], name: str, platform: Platform) -> Mapping[str, bytes]:
+    """A shared library of that name, of C files and objects: files by name.
+
+    It is one file, but beside that for Windows is NAME.lib. Raises UsageError where the compiler fails.
+    """
+    command, library = compiler_for(platform), platform.file(name)
     with tempfile.TemporaryDirectory(prefix="fairlead-") as scratch:
         folder = pathlib.Path(scratch)
-        for name, content in files.items():
-            (folder / name).write_bytes(content)
-        given = sorted(name for name in files if name.endswith((".c", ".o")))
-        _call([*command, *FLAGS, "-o", "library.so", *given, *LINKED], folder)
-        made = folder / "library.so"
+        for file, content in files.items():
+            (folder / file).write_bytes(content)
+        given = sorted(file for file in files if file.endswith((".c", ".o")))
+        _call([*command, *FLAGS, "-o", library, *given, *platform.flags], folder)
+        made = folder / library
         if not made.exists():
             raise UsageError(f"The C compiler {command[0]} made no library.\n    {ANOTHER}")
-        return made.read_bytes()
+        beside = folder / f"{name}.lib"
+        return {file.name: file.read_bytes() for file in (made, beside) if file.exists()}
 
 
 def compiles(files: Mapping[str, bytes], program: str) -> bool:

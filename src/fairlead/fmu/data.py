@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from fairlead.fmu.image import LINE, Image
-from fairlead.fmu.machine_code import TRIPLE
+from fairlead.fmu.machine_code import machine_for
+from fairlead.fmu.platforms import Platform
 
 
-def data_object(image: Image) -> bytes:
+def data_object(image: Image, platform: Platform) -> bytes:
     """The object that defines what `c/image.h` declares: links, runs, their bytes, and what instances share."""
     import numpy as np
 
@@ -19,19 +20,18 @@ def data_object(image: Image) -> bytes:
         {
             "fairlead_links": links.tobytes(), "fairlead_runs": runs.tobytes(),
             "fairlead_bytes": b"".join(run for _, run in image.runs), "fairlead_shared": image.shared,
-        }
+        },
+        platform,
     )  # fmt: skip
 
 
-def _object(arrays: Mapping[str, bytes]) -> bytes:
+def _object(arrays: Mapping[str, bytes], platform: Platform) -> bytes:
     import llvmlite.binding as llvm
 
-    lines = [f'target triple = "{TRIPLE}"']
+    machine = machine_for(platform)
+    lines = [f'target datalayout = "{machine.target_data}"', f'target triple = "{platform.triple}"']
     for name, content in arrays.items():
         kept = content or b"\0"
         text = "".join(f"\\{byte:02X}" for byte in kept)
         lines.append(f'@{name} = hidden constant [{len(kept)} x i8] c"{text}", align {LINE}')
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    machine = llvm.Target.from_triple(TRIPLE).create_target_machine(cpu="generic", reloc="pic", codemodel="default")
     return bytes(machine.emit_object(llvm.parse_assembly("\n".join(lines))))

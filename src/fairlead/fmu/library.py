@@ -20,6 +20,7 @@ from fairlead.fmu.archive import write
 from fairlead.fmu.compiler import compiles, linked
 from fairlead.fmu.description import identifier
 from fairlead.fmu.made import asked_of, made_of, own_version, sources
+from fairlead.fmu.platforms import platforms_of
 from fairlead.fmu.tuned import AFTER, ALWAYS, BEFORE, Tuned
 from fairlead.outer import Variable
 
@@ -43,13 +44,15 @@ RESERVED = frozenset(_WORDS.split())
 
 def export_library(
     model: Model, folder: str | os.PathLike[str] | None = None, *, inputs: Iterable[str] = (),
-    outputs: Iterable[str] = (), tunable: Iterable[str] = (), **settings: Unpack[RunKeywords],
+    outputs: Iterable[str] = (), tunable: Iterable[str] = (), platforms: Iterable[str] = (),
+    **settings: Unpack[RunKeywords],
 ) -> pathlib.Path:  # fmt: skip
     """Write NAME.h, libNAME.so and example.c into a folder, and return the folder.
 
     NAME is that of the model, as far as it is a name in C. Inputs, outputs, tunable parameters and settings are those
-    of `fairlead.fmu.export`; without `folder` it is NAME in this folder. A library of the same model has the same
-    bytes.
+    of `fairlead.fmu.export`; without `folder` it is NAME in this folder. If `platforms` are named, the library for each
+    is in a folder of that name inside: for Windows NAME.dll, beside NAME.lib for linking; for macOS libNAME.dylib. A
+    library of the same model has the same bytes.
 
     An example.c that was edited stays, with a RunWarning. Raises ModelError as `Model.start` does, and UsageError for
     what cannot go along, without a C compiler, and where a file cannot be written.
@@ -60,23 +63,28 @@ def export_library(
     given.texts("inputs", inputs, '"valve.command"')
     given.texts("outputs", outputs, '"spring.force"')
     given.texts("tunable", tunable, '"pad.normal_force"')
+    given.texts("platforms", platforms, '"aarch64-linux"')
     given.refuse()
-    asked = asked_of(model, inputs, outputs, tunable, settings, "export_library")
+    named = [one.name for one in platforms_of(platforms)] if platforms else []
+    asked = asked_of(model, inputs, outputs, tunable, settings, "export_library", named)
     made = made_of(asked)
     name = prefix(model.netlist.name)
     target = pathlib.Path(name if folder is None else folder)
     if target.is_file():
         raise UsageError(f"{target} is a file, and a library is a folder.\n    Name another folder with -o.")
-    library = linked(sources(made, name, ("library.c",)))
+    libraries: dict[str, bytes] = {}
+    for one in asked.platforms:
+        found = linked(sources(made, name, ("library.c",), one), name, one)
+        libraries |= {f"{one.name}/{file}" if named else file: content for file, content in found.items()}
     texts = {
         f"{name}.h": header_text(name, model.netlist.name, made.variables, made.tuned),
-        "example.c": _example(name, model.netlist.name, asked.settings.start, asked.settings.stop),
+        "example.c": _example(name, model.netlist.name, asked.settings.start, asked.settings.stop, *named[:1]),
     }
     if _is_edited(target / "example.c", texts["example.c"]):
         told = f"{target / 'example.c'} is not as it was written, and stays. Remove it to have it written anew."
         warnings.warn(told, RunWarning, stacklevel=2)
         del texts["example.c"]
-    for file, content in {f"lib{name}.so": library, **{file: text.encode() for file, text in texts.items()}}.items():
+    for file, content in {**libraries, **{file: text.encode() for file, text in texts.items()}}.items():
         write(target / file, content)
     return target
 
@@ -148,10 +156,10 @@ def _distinct(names: Sequence[str]) -> list[str]:
     return found
 
 
-def _example(name: str, title: str, start: float, stop: float) -> str:
+def _example(name: str, title: str, start: float, stop: float, folder: str = ".") -> str:
     span = stop - start
     return _marked(_filled("example.c", {
-        "NAME": name, "MODEL": _comment(title), "STOP": f"{span:.9g}", "STEPS": str(EXAMPLE_STEPS),
+        "NAME": name, "MODEL": _comment(title), "FOLDER": folder, "STOP": f"{span:.9g}", "STEPS": str(EXAMPLE_STEPS),
         "PERIOD * k": f"{start!r} + {span / EXAMPLE_STEPS!r} * k", "PERIOD": f"{span / EXAMPLE_STEPS:.9g}",
     }))  # fmt: skip
 

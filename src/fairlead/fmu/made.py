@@ -11,11 +11,12 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from fairlead.engine import engine_of
-from fairlead.fmu.compiler import compiler
+from fairlead.fmu.compiler import compiler_for
 from fairlead.fmu.data import data_object
 from fairlead.fmu.header import header, stubs
 from fairlead.fmu.image import Image, Laid, image_of, laid
 from fairlead.fmu.machine_code import Code, objects
+from fairlead.fmu.platforms import Platform, platforms_of
 from fairlead.fmu.refusals import (
     refuse_engine,
     refuse_names,
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.settings import RunSettings
     from fairlead.system.compiled.system import System
 
-RUN = ("run.h", "run.c", "image.h", "pivots.h", "pivots.c", "tuned.h", "tuned.c")
+RUN = ("offered.h", "run.h", "run.c", "image.h", "pivots.h", "pivots.c", "tuned.h", "tuned.c")
 """C of a run, which every kind of library has."""
 
 
@@ -52,6 +53,8 @@ class Asked(NamedTuple):
     inputs: Sequence[str]
     tunable: Sequence[Variable]
     """Parameters that can be set while it runs."""
+    platforms: Sequence[Platform]
+    """Systems that libraries are made for."""
 
 
 class Made(NamedTuple):
@@ -67,13 +70,15 @@ class Made(NamedTuple):
 
 def asked_of(
     model: Model, inputs: Iterable[str], outputs: Iterable[str], tunable: Iterable[str], settings: RunKeywords,
-    called: str,
+    called: str, platforms: Iterable[str] = (),
 ) -> Asked:  # fmt: skip
     """What is asked for by a call, or UsageError for what this machine or a copy of the model cannot do."""
     from fairlead.netlist.keywords import with_keywords
 
     refuse_platform()
-    compiler()
+    targets = platforms_of(platforms)
+    for one in targets:
+        compiler_for(one)
     chosen = with_keywords(model.netlist.run, settings, model.netlist.parameters, called)
     refuse_engine(engine_of(chosen, model.system)[0])
     parameters, faults = find_tunable(model.netlist, model.assembly.entries, tunable)
@@ -81,7 +86,7 @@ def asked_of(
     faults += set_already(given, {one.name: one.of for one in parameters})
     refuse_names(model.system, inputs, outputs, faults)
     netlist = _with_outputs(model.netlist, model.system, outputs)
-    return Asked(model, netlist, chosen, list(inputs), parameters)
+    return Asked(model, netlist, chosen, list(inputs), parameters, targets)
 
 
 def _with_outputs(netlist: Netlist, system: System, outputs: Iterable[str]) -> Netlist:
@@ -105,7 +110,7 @@ def made_of(asked: Asked) -> Made:
     refuse_twice([one.name for one in variables])
     opened = laid_open(run)
     refuse_parts(opened.problem)
-    code = objects(opened.engine, opened.problem)
+    code = objects(opened.engine, opened.problem, asked.platforms)
 
     def lay(value: Mapping[str, float], moved: Collection[str]) -> Laid:
         other = laid_open(_run_of(asked, _alike(asked.model, value))) if value else opened
@@ -145,8 +150,8 @@ def _run_of(asked: Asked, model: Model) -> Stepping:
     return Stepping(asked.netlist, asked.settings, model.system, asked.inputs, record)
 
 
-def sources(made: Made, identifier: str, own: Sequence[str]) -> Mapping[str, bytes]:
-    """Files for the compiler, by name: those of a run, and of the folder `c` those named `own`."""
+def sources(made: Made, identifier: str, own: Sequence[str], platform: Platform) -> Mapping[str, bytes]:
+    """Files for a platform's compiler, by name: those of a run, and of the folder `c` those named `own`."""
     columns = [made.opened.columns[one.name] for one in made.variables if one.causality == "output"]
     names = {
         causality: [one.name for one in made.variables if one.causality == causality]
@@ -156,15 +161,16 @@ def sources(made: Made, identifier: str, own: Sequence[str]) -> Mapping[str, byt
                   tuned=made.tuned, token=made.token, identifier=identifier)  # fmt: skip
     folder = importlib.resources.files("fairlead.fmu") / "c"
     files = {name: (folder / name).read_bytes() for name in (*RUN, *own)}
-    generated = {"model.h": text.encode(), "stubs.c": stubs(made.code).encode(), "data.o": data_object(made.image)}
-    return {**files, **made.code.objects, **generated}
+    generated = {"model.h": text.encode(), "stubs.c": stubs(made.code).encode()}
+    return {**files, **made.code.objects[platform.name], **generated, "data.o": data_object(made.image, platform)}
 
 
 def _token(image: Image, code: Code, variables: Sequence[Variable], tuned: Sequence[Tuned]) -> str:
     """What tells this library from all others: a hash of all that it is made of."""
     told = (image.size, image.state, list(image.links), variables, tuned, code.functions)
     state = hashlib.sha256(repr(told).encode())
-    for part in (*(bytes(run) for _, run in image.runs), image.shared, *code.objects.values()):
+    machine_code = (part for found in code.objects.values() for part in found.values())
+    for part in (*(bytes(run) for _, run in image.runs), image.shared, *machine_code):
         state.update(len(part).to_bytes(8, "little") + part)
     return f"{{{uuid.UUID(bytes=state.digest()[:16])}}}"
 

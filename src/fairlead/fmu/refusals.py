@@ -22,7 +22,7 @@ def refuse_platform() -> None:
     if not (sys.platform == "linux" and platform.machine() in MACHINES):
         raise UsageError(
             f"FMUs are made on Linux for x86-64 only, and this is {sys.platform} on {platform.machine()}.\n"
-            "    Export there; the file runs in any master on such a system."
+            "    Export there, with --platform for the system that the file is to run on."
         )
 
 

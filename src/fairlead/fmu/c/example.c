@@ -1,6 +1,6 @@
 /* Runs MODEL for STOP s, and prints its outputs every PERIOD s. In this folder:
 
-   cc example.c -o example -L. -lNAME -Wl,-rpath,. && ./example */
+   cc example.c -o example -L FOLDER -lNAME -Wl,-rpath,FOLDER && ./example */
 #include "NAME.h"
 
 #include <stdio.h>

@@ -1,12 +1,11 @@
 /* FMI 2.0 for co-simulation, by declarations of our own; the rest is in wrapper.c. */
+#include "offered.h"
 #include "wrapper.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define OFFERED __attribute__((visibility("default")))
 
 typedef void *Component;
 typedef unsigned Reference;

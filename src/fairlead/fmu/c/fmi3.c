@@ -1,12 +1,11 @@
 /* FMI 3.0 for co-simulation, by declarations of our own; the rest is in wrapper.c. */
+#include "offered.h"
 #include "wrapper.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
-
-#define OFFERED __attribute__((visibility("default")))
 
 typedef void *Component;
 typedef uint32_t Reference;

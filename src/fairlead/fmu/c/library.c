@@ -1,11 +1,11 @@
 /* The calls of library.h: those of run.h under the name of the model, with their arguments looked at. */
 #include "model.h"
+#include "offered.h"
 #include "run.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#define OFFERED __attribute__((visibility("default")))
 #define JOIN(prefix, name) prefix##_##name
 #define JOINED(prefix, name) JOIN(prefix, name)
 #define OF_MODEL(name) JOINED(MODEL_PREFIX, name)
