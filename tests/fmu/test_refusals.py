@@ -8,6 +8,7 @@ import pytest
 import fairlead
 from fairlead.errors import ModelError, UsageError
 from fairlead.fmu import compiler, description, export, header
+from fairlead.fmu.platforms import HERE, PLATFORMS
 from tests.fmu.exported import PUSHED, fmpy, model, needs_compiler, once, slave
 
 PYTHON = """
@@ -71,7 +72,7 @@ def test_a_version_that_is_not_made_is_refused(linked, pushed):
 def test_without_a_compiler_it_is_told_what_to_install(monkeypatch, pushed):
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setattr(shutil, "which", lambda name: None)
-    monkeypatch.setattr(compiler.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(compiler, "has_ziglang", lambda: False)
     said = refusal(pushed)
     assert "no C compiler" in said
     assert "fairlead[zig]" in said
@@ -80,10 +81,10 @@ def test_without_a_compiler_it_is_told_what_to_install(monkeypatch, pushed):
 def test_a_compiler_that_fails_is_quoted(monkeypatch):
     monkeypatch.setenv("CC", "false")
     with pytest.raises(UsageError, match="false failed with code 1"):
-        compiler.linked({"a.c": b""})
+        compiler.linked({"a.c": b""}, "a", PLATFORMS[HERE])
     monkeypatch.setenv("CC", "no-such-compiler")
     with pytest.raises(UsageError, match="cannot be called"):
-        compiler.linked({"a.c": b""})
+        compiler.linked({"a.c": b""}, "a", PLATFORMS[HERE])
 
 
 def test_on_another_system_it_is_told_where_fmus_are_made(monkeypatch, pushed):

@@ -67,7 +67,7 @@ def linked(files: Mapping[str, bytes], name: str, platform: Platform) -> Mapping
         for file, content in files.items():
             (folder / file).write_bytes(content)
         given = sorted(file for file in files if file.endswith((".c", ".o")))
-        _call([*command, *FLAGS, "-o", library, *given, *platform.flags], folder)
+        _call([*command, *FLAGS, "-o", library, *given, *platform.flags(name)], folder)
         made = folder / library
         if not made.exists():
             raise UsageError(f"The C compiler {command[0]} made no library.\n    {ANOTHER}")

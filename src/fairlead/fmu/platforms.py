@@ -34,12 +34,11 @@ class Platform(NamedTuple):
         """The name of the system alone."""
         return self.name.partition("-")[2]
 
-    @property
-    def flags(self) -> tuple[str, ...]:
+    def flags(self, name: str) -> tuple[str, ...]:
         """Of the linker: nothing in the library tells when or where it was made."""
         if self.system == "linux":
             return ("-Wl,--build-id=none", "-Wl,--no-undefined", "-s", "-lm")
-        return ("-s",)
+        return ("-s", f"-Wl,--out-implib,{name}.lib") if self.system == "windows" else ("-s",)
 
     def file(self, name: str) -> str:
         """Of a library that programs link with."""
