@@ -29,7 +29,7 @@ OTHERS = [name for name in PLATFORMS if name != platforms.HERE]
 SYSTEM = {
     "linux": {"libc.so.6", "libm.so.6"},
     "windows": {"KERNEL32.dll", *(f"api-ms-win-crt-{name}-l1-1-0.dll" for name in
-                ("heap", "math", "runtime", "string", "stdio", "private", "convert", "locale"))},
+                ("heap", "math", "runtime", "string", "stdio", "time", "environment"))},
     "darwin": {"/usr/lib/libSystem.B.dylib"},
 }  # fmt: skip
 """What every such system has: of Windows from version 10 on."""
