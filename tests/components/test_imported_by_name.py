@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-from fairlead.component.base import Declared, slips_of
+from fairlead.component import Controller
+from fairlead.component.base import Declared, check_declared, slips_of
 from fairlead.component.bundled import Bundled, bundled, written
 from fairlead.netlist.files import bundled_models
 
@@ -70,14 +71,27 @@ def test_a_class_by_name_is_that_of_the_whole_library_and_an_unknown_one_is_none
     assert [head.__name__ for head in types.heads()] == ["Contact"]
 
 
-def test_no_bundled_class_has_a_slip_of_the_pen() -> None:
+def bundled_classes() -> list[type[Declared]]:
+    """All classes of the library, half-models too."""
     bundled()
     kinds = list(Declared.__subclasses__())
     for kind in kinds:
         kinds += kind.__subclasses__()
-    ours = [kind for kind in kinds if kind.__module__.startswith("fairlead.components.")]
+    return [kind for kind in kinds if kind.__module__.startswith("fairlead.components.")]
+
+
+def test_no_bundled_class_has_a_slip_of_the_pen() -> None:
+    ours = bundled_classes()
     assert len(ours) > 200
     assert {kind.__name__: slips for kind in ours if (slips := list(slips_of(kind)))} == {}
+
+
+def test_bundled_classes_are_declared_as_those_of_a_user_must_be() -> None:
+    """It is asked here and not whenever one is created, which took a fiftieth of a short command."""
+    whole = [one for one in bundled_classes() if "declaration" in vars(one) and not issubclass(one, Controller)]
+    assert len(whole) > 150
+    for kind in whole:
+        check_declared(kind)
 
 
 OWN = """

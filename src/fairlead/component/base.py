@@ -96,9 +96,11 @@ class Declared:
             written = cls.declaration.parameters
             if not is_bundled(cls):  # the tests ask those
                 cls.declaration = replace(cls.declaration, parameters=parameters_in_si(written))
-            check(cls, _sort(cls))
-            for what in () if is_bundled(cls) else not_in_si(written, cls.declaration):
-                demand(cls, False, what)
+                check_declared(cls)
+                for what in not_in_si(written, cls.declaration):
+                    demand(cls, False, what)
+            elif _sort(cls) == CONTROLLER:  # whose declaration is another one once it is there
+                check_declared(cls)
             check_fixed(cls)
 
 
@@ -213,6 +215,11 @@ def _check_answers(cls: type[Declared], members: dict[str, Any]) -> None:
     slips = () if is_bundled(cls) else slips_of(cls)  # the tests ask those
     for what in (*slips, *unfit(members, _sort(cls), cls.declaration)):
         demand(cls, False, what)
+
+
+def check_declared(cls: type[Declared]) -> None:
+    """Names, signatures, units and targets of a class, as they are checked when one of a user's is created."""
+    check(cls, _sort(cls))
 
 
 def slips_of(cls: type[Declared]) -> Iterator[str]:
