@@ -119,8 +119,9 @@ class Model:
         """Component instances. Raises ModelError with everything that `check` would tell."""
         from fairlead.component.instantiate import instantiate
         from fairlead.component.registry import known_types
+        from fairlead.flatten.collection import collected_later
 
-        assembly, faults = instantiate(self.netlist, known_types(self.libraries))
+        assembly, faults = collected_later(instantiate)(self.netlist, known_types(self.libraries))
         if faults or self._faults:
             self.check()
         return _shown_in_a_line(assembly)
@@ -148,9 +149,10 @@ class Model:
     @functools.cached_property
     def system(self) -> System:
         """The compiled model."""
+        from fairlead.flatten.collection import collected_later
         from fairlead.system.compile import compile
 
-        return _shown_in_a_line(compile(self.flat))
+        return _shown_in_a_line(collected_later(lambda: compile(self.flat))())  # once for the stages before it too
 
     def check(self) -> list[Fault]:
         """Go through all stages without running; returns warnings, raises ModelError for mistakes.
