@@ -133,6 +133,9 @@ def test_a_place_that_cannot_be_written_is_told_and_leaves_nothing(tmp_path):
         ("3 parts", "model_3_parts"),
         ("", "model_"),
         ("größe", "gr__e"),
+        ("aux", "model_aux"),
+        ("COM1", "model_COM1"),
+        ("com10", "com10"),
     ],
 )
 def test_the_name_of_the_library_is_a_name_in_c_and_never_a_path(name, safe):

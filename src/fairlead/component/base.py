@@ -99,7 +99,7 @@ class Declared:
                 check_declared(cls)
                 for what in not_in_si(written, cls.declaration):
                     demand(cls, False, what)
-            elif _sort(cls) == CONTROLLER:  # whose declaration is another one once it is there
+            elif _sort(cls) == CONTROLLER:  # which changes its declaration after this (controller.py)
                 check_declared(cls)
             check_fixed(cls)
 

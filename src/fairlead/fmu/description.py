@@ -52,10 +52,15 @@ class About:
     accuracy: float
 
 
+DEVICES = frozenset(("con", "prn", "aux", "nul", *(f"{port}{k}" for port in ("com", "lpt") for k in range(1, 10))))
+"""What Windows takes for a device, whatever the ending: a file of that name cannot be unpacked there."""
+
+
 def identifier(name: str, longest: int = 60) -> str:
     """A name in C for a model, which is that of its library as well: letters of ASCII, digits, underscores."""
     safe = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)[:longest]
-    return safe if safe and not safe[0].isdigit() else f"model_{safe}"
+    free = safe and not safe[0].isdigit() and safe.lower() not in DEVICES
+    return safe if free else f"model_{safe}"
 
 
 def description(about: About, variables: Sequence[Variable], tuned: Sequence[Tuned], version: int) -> bytes:

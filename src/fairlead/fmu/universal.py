@@ -6,8 +6,9 @@ import struct
 from collections.abc import Sequence
 
 MAGIC = 0xCAFEBABE
+"""FAT_MAGIC of Apple's <mach-o/fat.h>, which has the numbers of the head in big-endian order."""
 PAGE = 14
-"""Every part begins at a multiple of 2^PAGE bytes, the largest page of these processors."""
+"""Every part begins at a multiple of 2^PAGE bytes: pages are 16 kB on ARM and 4 kB on x86-64, and begin at no other."""
 
 
 def universal(libraries: Sequence[bytes]) -> bytes:
