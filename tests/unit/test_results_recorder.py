@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fairlead.errors import FairleadError, UsageError
-from fairlead.results import Result, RunDirectory, Signal, recorder, run_file, store
+from fairlead.results import Result, RunDirectory, Signal, recorder, run_file, store, waiting
 from fairlead.results.damage import DamagedResultsError
 
 SIGNALS = (Signal("block.v", "m/s", "speed of the block"),)
@@ -165,14 +165,32 @@ def test_a_run_of_a_second_lays_out_its_file_once(tmp_path: Path, monkeypatch: p
     assert len(Result.open(tmp_path / "run").t) == 12
 
 
-def test_a_block_too_large_for_memory_goes_to_the_disk_at_once(
+def test_a_short_run_that_is_too_large_for_memory_lays_out_its_file_once_too(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recorder, "MOST_BYTES_IN_MEMORY", 100)
+    monkeypatch.setattr(waiting, "MOST_BYTES_IN_MEMORY", 100)
+    laid_out: list[int] = []
+    create = store.layout.create
+    monkeypatch.setattr(store.layout, "create", lambda path, of, room: (laid_out.append(room), create(path, of, room)))
+    run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    for k in range(0, 60, 20):
+        run.append(np.arange(k, k + 20.0), np.arange(k, k + 20.0)[:, None], np.zeros(20))
+    run.append([60.0], [[60.0]], [0])
+    run.finish("finished", {})
+    assert laid_out == [61]
+    assert Result.open(tmp_path / "run")["block.v"].tolist() == list(range(61))
+
+
+def test_a_block_too_large_for_memory_goes_to_the_disk_at_once_when_there_is_a_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(waiting, "MOST_BYTES_IN_MEMORY", 100)
     monkeypatch.setattr(recorder, "FLUSH_PERIOD", 1e9)
     run = RunDirectory.create(tmp_path / "run", SIGNALS, {})
+    run.append([0.0], [[1.0]], [0])
+    run.flush(at_once=True)
     run.append(np.arange(20.0), np.ones((20, 1)), np.zeros(20))
-    assert len(Result.open(tmp_path / "run").t) == 20
+    assert len(Result.open(tmp_path / "run").t) == 21
     run.finish("finished", {})
 
 

@@ -23,8 +23,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import fairlead.results.run_file as run_file
 from fairlead.errors import FairleadError
 from fairlead.results.claim import FINISHED, Claim
@@ -35,13 +33,13 @@ from fairlead.results.signal import Signal
 from fairlead.results.sink import Block, Sink, without_twins
 from fairlead.results.store import SERIES_FILE, SeriesWriter
 from fairlead.results.trajectory import Result
+from fairlead.results.waiting import Waiting
 
 FLUSH_PERIOD = 0.5
 FIRST_FLUSH = 2.0
-"""Wall seconds until the file is laid out: for 500 signals that takes a tenth of a second, and a run that is shorter
+"""Wall seconds until the file is laid out: for 500 signals that takes a fifth of a second, and a run that is shorter
 lays it out once, at its end."""
 LARGEST_SHARE_OF_FLUSHING = 0.05
-MOST_BYTES_IN_MEMORY = 2**22
 
 
 class RunDirectory(Sink):
@@ -53,13 +51,12 @@ class RunDirectory(Sink):
         self._claim = claimed
         self._record["locked"] = claimed.locked
         self._own = run_file.Watched(self.path, self._record)
-        self._blocks: list[Block] = []
-        self._bytes = 0
         self._flushed = clock.monotonic()
         self._pause = FIRST_FLUSH
         self._result: Result | None = None
         run_file.write(self.path, {**self._record, "status": run_file.CLAIMED})
         claimed.clear()
+        self._waiting = Waiting(self.path)
         self._series = SeriesWriter(self.path / SERIES_FILE, signals)
         self._events = EventWriter(self.path / EVENT_FILE)
         run_file.write(self.path, self._record)
@@ -115,9 +112,12 @@ class RunDirectory(Sink):
         return self._result
 
     def _take(self, block: Block) -> None:
-        self._blocks.append(block)
-        self._bytes += block[1].nbytes
-        self.flush(at_once=self._bytes > MOST_BYTES_IN_MEMORY)
+        self._waiting.add(block)
+        full = self._waiting.memory_is_full
+        self.flush(at_once=full and self._series.is_laid_out)
+        if full and not self._series.is_laid_out:
+            with _disk(self.path):
+                self._waiting.set_aside()
 
     def _named(self) -> str:
         return f"The run in {self.path}"
@@ -155,11 +155,8 @@ class RunDirectory(Sink):
         return written
 
     def _write_blocks(self, last: bool = False) -> None:
-        if not self._blocks:
-            return
-        t, values, side = (np.concatenate(parts) for parts in zip(*self._blocks, strict=True))
-        self._series.write(t, values, side, last)
-        self._blocks, self._bytes = [], 0
+        for t, values, side in self._waiting.give_back():
+            self._series.write(t, values, side, self._waiting.rows - len(t), last)
 
 
 @contextmanager
