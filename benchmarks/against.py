@@ -3,10 +3,12 @@
     git worktree add ../old ac213c8 && make -C ../old .venv/test.done
     python benchmarks/against.py ../old                      all scenes, nine interleaved pairs, an hour
     python benchmarks/against.py ../old --scene belt --pairs 3
+    python benchmarks/against.py ../old --commands           belt and single_bend from the shell, without figures
 
 Each run has a process of its own, with the Python and the bundled models of its checkout; the two take turns. A scene
 is run once to fill the caches, and then timed. `aside` is what a call of `Model.run(out=None)` takes beside the loop.
 Ratios are this checkout over the other, the median of the pairs. A scene that the other does not bundle is left out.
+A command is `fairlead run` of the netlist here without its `plots`, from its start to its end, caches warm.
 """
 
 from __future__ import annotations
@@ -40,6 +42,9 @@ SCENES: dict[str, tuple[str, dict[str, str]]] = {
 COUNTS = ("steps", "rejected", "rhs", "jacobians", "factorisations", "solves", "guards", "switches", "located")
 SHORT = 0.5  # s of CPU: a run that takes less is repeated
 REPEATS = 15
+COMMANDS = ("belt", "single_bend")
+WRITTEN = {"PYTHONDONTWRITEBYTECODE": ""}
+"""A command that may not keep what Python makes of its modules would make it each time."""
 
 
 def run(scene: str) -> dict[str, Any]:
@@ -91,11 +96,42 @@ def compare(other: pathlib.Path, scene: str, pairs: int) -> None:
     sys.stdout.flush()
 
 
+def shell(checkout: pathlib.Path, netlist: pathlib.Path) -> float:
+    """Seconds of CPU of one command, with all it starts."""
+    words = [str(checkout / ".venv" / "bin" / "fairlead"), "run", str(netlist), "--force", "--quiet"]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    out = netlist.parent / f"{checkout.name}-results"
+    subprocess.run([*words, "--out", str(out)], check=True, stderr=subprocess.DEVNULL, env={**os.environ, **WRITTEN})
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def compare_commands(other: pathlib.Path, pairs: int) -> None:
+    """Print a table of whole commands."""
+    import yaml
+
+    print(f"\n`fairlead run` without figures, {pairs} pairs, s of CPU\n")
+    print("| scene | here | there | ratio | least to largest |\n|" + 5 * " --- |")
+    here = HERE.parent.parent
+    for scene in COMMANDS:
+        with tempfile.TemporaryDirectory() as folder:
+            netlist = pathlib.Path(folder, f"{scene}.yaml")
+            written = yaml.safe_load((here / "models" / netlist.name).read_text(encoding="utf-8"))
+            written["record"].pop("plots")
+            netlist.write_text(yaml.safe_dump(written, sort_keys=False), encoding="utf-8")
+            found = [(shell(here, netlist), shell(other, netlist)) for _ in range(pairs + 1)][1:]
+        ratios = sorted(a / b for a, b in found)
+        least = (min(pair[k] for pair in found) for k in (0, 1))
+        middle = f"{statistics.median(ratios):.2f} | {ratios[0]:.2f} to {ratios[-1]:.2f}"
+        print(f"| {scene} | " + " | ".join(f"{one:.3g}" for one in least) + f" | {middle} |")
+
+
 def main() -> None:
     """Compare, or run one scene for the process that compares."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("other", nargs="?", type=pathlib.Path, help="the other checkout, with a .venv of its own")
     parser.add_argument("--scene", action="append", choices=SCENES, help="one scene; may be given several times")
+    parser.add_argument("--commands", action="store_true", help="whole commands instead")
     parser.add_argument("--pairs", type=int, default=9)
     parser.add_argument("--run", choices=SCENES, help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -105,6 +141,9 @@ def main() -> None:
     if given.other is None:
         parser.error("name the other checkout")
     other = given.other.resolve()
+    if given.commands:
+        compare_commands(other, given.pairs)
+        return
     for scene in given.scene or SCENES:
         if bundled(other, scene):
             compare(other, scene, given.pairs)
