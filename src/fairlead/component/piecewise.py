@@ -75,7 +75,8 @@ class PiecewisePolynomial:
 
     def piece_at(self, x: float) -> int:
         """The piece that holds x; at a border the right one."""
-        return int(np.clip(np.searchsorted(self.left, x, side="right") - 1, 0, len(self.rows) - 1))
+        begun = int(self.left.searchsorted(x, side="right"))
+        return min(max(begun - 1, 0), len(self.rows) - 1)
 
     def __call__(self, x: float) -> float:
         """Value at x."""
@@ -123,7 +124,7 @@ def _values(rows: Floats, x: Floats) -> Floats:
 
 
 def _value(row: Floats, x: float) -> float:
-    return float(horner(row[TERMS:], x - row[REFERENCE]))
+    return float(horner(row[TERMS:].tolist(), x - float(row[REFERENCE])))
 
 
 def horner(coefficients: Floats, s: Any) -> Any:
