@@ -191,6 +191,55 @@ def test_two_friction_gears_share_by_their_radii_and_lock_when_their_ratios_diff
     assert (abs(exact[0]) > 0.1) == (ratio == 2.0)
 
 
+LOCKED = """
+      {a}: {{type: Inertia, moment: 2 kg*m^2}}
+      {b}: {{type: Inertia, moment: 3 kg*m^2}}
+      {b}_arm: {{type: Rack, radius: 1 m}}
+      {b}_pull: {{type: ForceSource, force: {{table: [[0 s, 0 N], [1 s, {most} N], [3 s, {least} N]]}}}}
+      {a}_one: {{type: Rack, radius: 0.1 m}}
+      {b}_one: {{type: Rack, radius: 0.05 m}}
+      {a}_two: {{type: Rack, radius: 0.3 m}}
+      {b}_two: {{type: Rack, radius: 0.12 m}}
+      {a}{b}_one: {{type: Contact, normal_force: 100 kN, curve: 0.5}}
+      {a}{b}_two: {{type: Contact, normal_force: 100 kN, curve: 0.5}}
+"""
+JOINED = """
+      - [{a}.shaft, {a}_one.pinion, {a}_two.pinion]
+      - [{b}.shaft, {b}_arm.pinion, {b}_one.pinion, {b}_two.pinion]
+      - [{a}_one.rack, {a}{b}_one.a]
+      - [{b}_one.rack, {a}{b}_one.b]
+      - [{a}_two.rack, {a}{b}_two.a]
+      - [{b}_two.rack, {a}{b}_two.b]
+"""
+
+
+@pytest.mark.parametrize("engine", ["rodas", "ida", "stepping"])
+@pytest.mark.parametrize("beside", ["the ground", "the ground, turned round", "two others"])
+def test_a_brake_at_what_is_locked_holds_again_when_its_share_is_less(simulate: Scene, beside, engine):
+    """Shafts stand still by two ratios that differ, so the brake has no slip to tell by; its limit is 2 N."""
+    pairs = [{"a": "a", "b": "b", "most": 6, "least": -6}, {"a": "c", "b": "d", "most": -4, "least": 4}]
+    pairs = pairs if beside == "two others" else pairs[:1]
+    one, other = ("brake.a", "brake.b") if "turned" in beside else ("brake.b", "brake.a")
+    far = "[d_pull.flange, d_arm.rack" if beside == "two others" else "[ground.flange"
+    result = simulate(
+        "    components:\n      brake: {type: Contact, normal_force: 4 N, curve: 0.5}"
+        + "\n      ground: {type: Ground}" * (beside != "two others")
+        + "".join(LOCKED.format(**names) for names in pairs) + "    connections:"
+        + "".join(JOINED.format(**names) for names in pairs) + f"      - [b_pull.flange, b_arm.rack, {one}]\n"
+        f"      - {far}, {other}]\n    run: {{stop: 3 s, accuracy: 1e-6, engine: {engine}}}"
+    )  # fmt: skip
+    slips = np.zeros((2 * len(pairs) + 1, 2 * len(pairs)))
+    for k in range(len(pairs)):
+        slips[2 * k : 2 * k + 2, 2 * k : 2 * k + 2] = [[-0.1, 0.05], [-0.3, 0.12]]
+        slips[-1, 2 * k + 1] = (1, -1)[k]
+    loads = np.array([size for names in pairs for size in (0.0, names["most"])])
+    share = np.linalg.lstsq(slips.T, loads)[0][-1]  # of the brake, as the loads are at their most, if it held
+    begins = 2.0 / share
+    assert [(e.component, e.zone_from == "held") for e in result.events] == [("brake", first) for first in (1, 0, 1)]
+    assert [e.t for e in result.events] == pytest.approx([begins, 2 - begins, 2 + begins], abs=1e-6)
+    assert result.at("brake.friction", 2.0) == pytest.approx(0.0, abs=1e-6)
+
+
 UNEQUAL = """
     from fairlead.component import Component, Law, Parameter, Translational, Unknown, hold
 

@@ -47,7 +47,11 @@ def unite(ctx, t, y):
 
 
 def look_around(ctx, t, y):
-    """See which contacts slide in name only, and pin the share of the top body of a union that hangs on nothing."""
+    """See which contacts slide in name only, and pin the share of the top body of a union that hangs on nothing.
+
+    Those do of which both ends move as one, or are at rest: each in a union of its own, too, as a brake on a shaft that
+    gears of two ratios lock.
+    """
     partials, at, inertia = f8(ctx[PARTIALS]), ctx[CIRCLE_AT], f8(ctx[GUARD_INERTIA])
     pairs, coef, table = i8(ctx[CIRCLE_PAIRS]), f8(ctx[CIRCLE_COEF]), i8(ctx[CIRCLE_ZONES])
     seen, still = i8(ctx[CIRCLE_SEEN]), i8(ctx[CIRCLE_STILL])
@@ -66,7 +70,7 @@ def look_around(ctx, t, y):
         if guard >= 0:
             if a == b and abs(slip_a + slip_b) <= 1e-9 * (abs(slip_a) + abs(slip_b)):
                 still[j] = 1
-            if a == b and nodes[NODE * a + NODE_UNION_HANGS_ON] == AT_REST:
+            if min(nodes[NODE * a + NODE_UNION_HANGS_ON], nodes[NODE * b + NODE_UNION_HANGS_ON]) == AT_REST:
                 still[j] = 1
             # A share that is wrong waits until every acceleration is right.
             inertia[guard] = (1.0 - (1.0 - 1e-9) * still[j]) / coef[own + COEF_FACTOR]
