@@ -9,7 +9,8 @@ import pytest
 import scipy.linalg
 import scipy.sparse.csgraph
 
-from fairlead.kernels.layout import AT_REST, DRIVEN, FREE, NODE, NODE_ABOVE, NODE_UNION_HANGS_ON
+from fairlead.kernels import layout
+from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from tests.plain_callbacks import context, plain
 
 SEEDS = range(25)
@@ -75,20 +76,43 @@ def motions(net, bodies):
     return scipy.linalg.null_space(net.C[np.ix_(rows, bodies)], rcond=1e-10)
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_unions_are_found_anew_where_a_contact_that_makes_them_has_changed_and_only_there(seed):
+    """As in a context that begins with the later zones; what always holds has no machine."""
+    net, callbacks = held_network(seed, agree=False), plain()
+    ctx, _ = united(net)
+    pairs, always = ctx[layout.CIRCLE_PAIRS].reshape(net.m, -1), int(net.rng.integers(net.m))
+    pairs[always, layout.CIRCLE_MACHINE] = -1
+    ctx[layout.ZONES][net.rng.integers(net.m)] ^= 1
+    callbacks["regroup"](ctx, 0.0, None)
+    net.held = ctx[layout.ZONES] == 0
+    net.held[always] = True
+    number, (top, _) = unions_of(net), tops(ctx, net)
+    assert len(set(zip(top.tolist(), number.tolist(), strict=True))) == len(set(number.tolist())) == len(set(top))
+    assert ctx[layout.PARTIALS][1 : net.m + 1] == pytest.approx(np.where(net.held, net.factor, 0.0))
+    for one in (layout.CIRCLE_STILL, layout.CIRCLE_RATIO):
+        ctx[one][:] = 7
+    callbacks["regroup"](ctx, 0.0, None)
+    assert set(ctx[layout.CIRCLE_STILL].tolist()) | set(ctx[layout.CIRCLE_RATIO].tolist()) == {7}
+    for name, more in (("add_shares", ()), ("guard_shares", (np.zeros(net.m),))):  # both ask for it
+        ctx[layout.ZONES][0] ^= 1
+        ctx[layout.W], ctx[layout.Z] = np.zeros(99), np.zeros(99)
+        callbacks[name](ctx, 0.0, np.zeros(99), *more)
+        assert ctx[layout.CIRCLE_SEEN][0] == (ctx[layout.ZONES][0] if pairs[0, layout.CIRCLE_MACHINE] >= 0 else 0)
+
+
 def rank(rows):
     return np.linalg.matrix_rank(rows, tol=1e-8) if len(rows) else 0
 
 
 def tops(ctx, net):
     """Of every body the one at the top, and its own speed over the speed of that."""
-    from fairlead.kernels.layout import CIRCLE_NODES, CIRCLE_RATIO
-
-    above = ctx[CIRCLE_NODES].reshape(-1, NODE)[:, NODE_ABOVE]
+    above = ctx[layout.CIRCLE_NODES].reshape(-1, layout.NODE)[:, layout.NODE_ABOVE]
     found, ratios = [], []
     for k in range(net.n):
         ratio = 1.0
         while above[k] != k:
-            ratio *= ctx[CIRCLE_RATIO][k]
+            ratio *= ctx[layout.CIRCLE_RATIO][k]
             k = above[k]
         found.append(int(k))
         ratios.append(ratio)
@@ -98,14 +122,12 @@ def tops(ctx, net):
 @pytest.mark.parametrize("agree", [True, False])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_bodies_that_contacts_hold_together_are_a_union_that_moves_as_the_null_space_says(seed, agree):
-    from fairlead.kernels.layout import CIRCLE_NODES
-
     net = held_network(seed, agree=agree)
     ctx, _ = united(net)
     top, ratio = tops(ctx, net)
     number = unions_of(net)
     assert len(set(zip(top.tolist(), number.tolist(), strict=True))) == len(set(number.tolist())) == len(set(top))
-    hangs_on = ctx[CIRCLE_NODES].reshape(-1, NODE)[:, NODE_UNION_HANGS_ON]
+    hangs_on = ctx[layout.CIRCLE_NODES].reshape(-1, layout.NODE)[:, layout.NODE_UNION_HANGS_ON]
     for union in range(number.max() + 1):
         inside = np.flatnonzero(number == union)
         moves = motions(net, inside)
@@ -121,24 +143,20 @@ def test_bodies_that_contacts_hold_together_are_a_union_that_moves_as_the_null_s
 @pytest.mark.parametrize("agree", [True, False])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_contact_slides_in_name_only_where_no_motion_that_the_others_leave_makes_it_slip(seed, agree):
-    from fairlead.kernels.layout import CIRCLE_STILL, GUARD_INERTIA
-
     net = held_network(seed, agree=agree)
     ctx, _ = united(net)
     known = np.vstack([net.C[net.held], np.eye(net.n)[net.hangs == AT_REST]])
     for j in range(net.m):
         stays = rank(np.vstack([known, net.C[j]])) == rank(known)
-        assert ctx[CIRCLE_STILL][j] == (stays and not net.held[j])
+        assert ctx[layout.CIRCLE_STILL][j] == (stays and not net.held[j])
         if not net.held[j]:  # of a share that is missing a nanometre a second is told, of a slip all
-            assert ctx[GUARD_INERTIA][j] == pytest.approx((1e-9 if stays else 1.0) / net.factor[j])
+            assert ctx[layout.GUARD_INERTIA][j] == pytest.approx((1e-9 if stays else 1.0) / net.factor[j])
 
 
 @pytest.mark.parametrize("agree", [True, False])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_forces_are_shared_so_that_the_sum_of_their_squares_is_least(seed, agree):
     """Accelerations by Gauss's principle, of least constraint; then the forces of least norm that give them."""
-    from fairlead.kernels.layout import W, Z
-
     net = held_network(seed, agree=agree)
     free, rng = np.flatnonzero(net.hangs == FREE), net.rng
     mass, push = rng.uniform(0.5, 3.0, net.n), rng.normal(size=net.n)
@@ -152,9 +170,9 @@ def test_forces_are_shared_so_that_the_sum_of_their_squares_is_least(seed, agree
 
     def shares(y):
         """What `add_shares` adds to every row for forces and shares y."""
-        ctx[W], ctx[Z] = np.zeros(size), np.append(y, 0.0)
+        ctx[layout.W], ctx[layout.Z] = np.zeros(size), np.append(y, 0.0)
         plain()["add_shares"](ctx, 0.0, y)
-        return ctx[W]
+        return ctx[layout.W]
 
     unknown = [*held.tolist(), *(net.m + free).tolist()]
     rows = np.array([shares(np.eye(size)[k]) for k in unknown]).T[unknown]
@@ -171,18 +189,16 @@ def test_forces_are_shared_so_that_the_sum_of_their_squares_is_least(seed, agree
 @pytest.mark.parametrize("seed", SEEDS)
 def test_sliding_in_name_ends_as_the_share_falls_below_the_friction(seed):
     """Its guard is a speed: what is missing, over the inertia, in tau, along the friction of the zone."""
-    from fairlead.kernels.layout import CIRCLE_STILL, Z
-
     net = held_network(seed)
     size = net.n + net.m
     ctx, zones = united(net, z=np.zeros(size + 1))
     y = net.rng.normal(size=size)
-    ctx[Z] = np.append(y, 0.0)
+    ctx[layout.Z] = np.append(y, 0.0)
     g = np.full(net.m, np.nan)
     plain()["guard_shares"](ctx, 0.0, y, g)
     w = np.where(net.hangs == FREE, y[net.m :], 0.0)
     for j in range(net.m):
-        if ctx[CIRCLE_STILL][j] == 0:
+        if ctx[layout.CIRCLE_STILL][j] == 0:
             assert np.isnan(g[j])
             continue
         friction, share, way = net.sense[j] * y[j], net.C[j] @ w, zones[j, 1, 2]
