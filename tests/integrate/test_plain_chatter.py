@@ -148,7 +148,7 @@ def test_machines_whose_switches_do_not_advance_are_held_and_said_to_chatter_unl
 
 def test_of_a_settlement_without_end_those_are_held_that_still_switch_in_its_second_half():
     """Machine 0 goes to and fro, 1 switched early, 2 never, 3 goes to and fro and is held already."""
-    at = machines(4, passes=8, t=2.0, switches=12)
+    at = machines(4, passes=8, t=2.0, switches=12, n_fired=3)
     history = np.array([[k % 2, int(k > 1), 0, k % 2] for k in range(9)])
     at.array["zones_history"][:] = history.ravel()
     at.array["zones"][:] = history[8]
