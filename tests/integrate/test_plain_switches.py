@@ -131,7 +131,7 @@ def row_of_contacts(order, ran, known, *, gap=0.1):
     at = memory(
         {"n": n, "n_machines": n, "n_guards": 2 * n, "n_neighbours": len(neighbours), "gap": gap, "steps": 7,
          "max_passes": 8, "t": 1.0},
-        neighbour_starts=starts, neighbours=neighbours, released=released, released_by=np.ones(n),
+        neighbour_starts=starts, neighbours=neighbours, released=released, released_by=np.where(released == 7, 1, 5),
         first_guard=2 * np.arange(n), hold_row=np.arange(n), holds=holds, fired=np.zeros(2 * n), met=np.zeros(n),
         continuous=np.where(known, 1, 0), zones=np.zeros(n), guard_machine=np.repeat(np.arange(n), 2),
         zones_history=np.zeros(9 * n), patterns_met=np.zeros(9),
@@ -162,7 +162,9 @@ def test_a_front_is_expected_to_run_through_most_of_as_many_contacts_as_in_the_l
     assert all(at.array["continuous"][i] == 1 for i in fired)  # and of these it is taken for granted
     assert not at.array["met"].any()
     assert set(np.flatnonzero(at.array["released"] == 8).tolist()) == {*ahead, *behind}
+    assert set(at.array["released_by"][[*ahead, *behind]].tolist()) <= {1}
     assert at.number["expecting"] == bool(fired)
+    assert at.number["passes"] == len(fired[:1])
     assert kept
 
 
