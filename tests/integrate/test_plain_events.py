@@ -210,6 +210,8 @@ def test_a_time_event_at_this_very_instant_needs_no_step(gap, landing, instant):
     assert asked(at, gap) == instant
     at.number["stop"] = 2.0  # the stop is arrived at by a step
     assert not asked(at, gap)
+    at.number["stop"], at.number["start"] = 5.0, 5.0 - 1e5  # of a long span more is rounding
+    assert asked(at, 1e-9) == (landing == 1)
 
 
 def test_budgets_end_a_run_where_they_are_used_up():

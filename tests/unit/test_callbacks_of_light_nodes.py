@@ -103,6 +103,17 @@ def test_what_is_left_of_rows_are_the_relations_of_speeds_with_inertia(seed):
                     assert left[i] == pytest.approx(A[i] - taken @ A[:i], abs=1e-9)
 
 
+def test_what_rounding_leaves_of_an_entry_is_none():
+    """0.1 v + 0.3 u = 0 and 0.3 v + 0.9 u + w = 0:  0.3 - (0.9/0.3) 0.1 is 5e-17, and the relation is of w alone."""
+    part = np.array([[0.1, 0.0], [0.3, 1.0]]), np.array([[0.3], [0.9]]), np.zeros((2, 0))
+    assert part[0][1, 0] - part[1][1, 0] / part[1][0, 0] * part[0][0, 0] != 0.0
+    ctx, places = laid_out(np.random.default_rng(0), [part])
+    values = np.zeros(places)
+    plain(ask=asked)["hold_light"](ctx, values)
+    assert values[:3].tolist() == [0.0, 0.0, 0.0]
+    assert values[3] == pytest.approx(1.0)
+
+
 def check(found, wanted, rank):
     assert (np.linalg.matrix_rank(found, tol=1e-8) if found.size else 0) == rank
     if rank:
