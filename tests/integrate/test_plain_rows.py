@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from fairlead.integrate.codes import DONE
+from fairlead.integrate.linear.condensing import columns_of
 from fairlead.integrate.stepping.jump_at_end import JUMPS_SOMEWHERE, SMOOTH
 from fairlead.integrate.stepping.jump_inside import NO_LIMIT, STAYED
 from fairlead.integrate.stepping.row_cache import CONSTANT, ROW
 from tests.integrate.plainly import plain_room
-from tests.integrate.rooms import factorise, fields, memory
+from tests.integrate.rooms import fields, memory
 from tests.integrate.test_room_stepping import SCALE, Contacts, solvable
 
 THETA = 0.5
@@ -36,6 +38,14 @@ class Linear(Contacts):
         name, *owners = names
         return plain_room(f"stepping.row_cache.{name}", *owners)
 
+    def evaluate(self):
+        """J and M of the zones in force, and their factors, without machine code."""
+        J, M = self.matrices()
+        self.at.array["jacobian"][:] = J[self.problem.pattern.rows, columns_of(self.problem.pattern)]
+        self.at.array["mass"][:] = M[self.problem.mass_pattern.rows, columns_of(self.problem.mass_pattern)]
+        self.go("learn_rows", "problem", "linear.matrices", "stepping")(self.at)
+        assert plain_room("linear.systems.factorise_step", "linear")(self.at, SCALE) == DONE
+
     def at_theta(self):
         y, end = self.at.array["y"], self.at.array["y_end"]
         return np.where(self.problem.differential, y + THETA * (end - y), end)
@@ -59,7 +69,7 @@ class Linear(Contacts):
         self.at.array["exchanged_machines"][:] = np.arange(len(self.rows))
         self.at.array["b"][self.rows] = [self.residual(z, 1.0) for z in range(len(self.rows))]
         self.go("learn_constants", "point", "linear.matrices", "stepping")(self.at)
-        factorise(self.at, SCALE)
+        assert plain_room("linear.systems.factorise_step", "linear")(self.at, SCALE) == DONE
 
 
 def test_the_constant_of_a_row_that_slides_is_what_its_residual_has_beside_j_u():

@@ -13,7 +13,7 @@ from fairlead.kernels import layout
 from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from tests.plain_callbacks import context, plain
 
-SEEDS = range(25)
+SEEDS = range(12)
 
 
 def held_network(seed, *, agree=True, still=True):

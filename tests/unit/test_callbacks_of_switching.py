@@ -8,7 +8,7 @@ import pytest
 from fairlead.kernels import layout
 from tests.plain_callbacks import context, plain
 
-SEEDS = range(20)
+SEEDS = range(10)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
