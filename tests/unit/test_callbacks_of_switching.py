@@ -131,23 +131,24 @@ def test_a_mean_of_given_motions_has_the_weights_of_both_ends_and_says_whether_i
     rng = np.random.default_rng(seed)
     curve = np.polynomial.Polynomial(rng.normal(size=3))
     z, places = np.zeros(6), np.array([4, 1])
-    ctx = context(z=z, given_places=places, given_mean=np.zeros(2), n_given_places=2, schedule=np.zeros(0),
+    ctx = context(n=1, z=z, given_places=places, given_mean=np.zeros(2), n_given_places=2, schedule=np.zeros(0),
                   mean=np.array([0.2, 0.9, *rng.uniform(0.1, 0.4, 2), 7.0]))  # fmt: skip
 
     def give_motions(_ctx, t):
         z[places] = curve(t), 5.0
 
     callbacks = plain(give_motions=give_motions, make_calls=lambda *_: None)
-    callbacks["look"](ctx, 0.5, np.zeros(0))
+    callbacks["look"](ctx, 0.5, np.array([8.0]))
+    assert z[0] == 8.0
     first, last = ctx[layout.MEAN][2:4]
     wanted = first * curve(0.2) + last * curve(0.9) + (1 - first - last) * curve(0.5)
     assert z[places] == pytest.approx([wanted, 5.0])
     assert ctx[layout.MEAN][4] == 1.0
     curve = np.polynomial.Polynomial([2.0])
-    callbacks["look"](ctx, 0.5, np.zeros(0))
+    callbacks["look"](ctx, 0.5, np.zeros(1))
     assert ctx[layout.MEAN][4] == 0.0  # it stands still
     ctx[layout.MEAN][2:4], ctx[layout.MEAN][4] = 0.0, 7.0
-    callbacks["look"](ctx, 0.5, np.zeros(0))
+    callbacks["look"](ctx, 0.5, np.zeros(1))
     assert ctx[layout.MEAN][4] == 7.0  # no mean is asked for
 
 
