@@ -37,6 +37,8 @@ def engine_of(settings: RunSettings, system: System) -> tuple[Engine, str]:
     """The engine of a run and why, as run.json tells them."""
     if settings.engine != "auto":
         return settings.engine, "chosen by run.engine"
+    if settings.real_time is not None:
+        return "stepping", "auto: it has steps of one length (run.real_time)"
     if (reason := beyond(system, settings)) is not None:
         return "rodas", f"auto: {reason}"
     contacts = int(np.count_nonzero(system.holder >= 0))
@@ -74,11 +76,12 @@ def engine_settings(netlist: Netlist, settings: RunSettings, system: System, pat
     types = [instance.type for instance in system.flat.instances]
     engine = chosen or engine_of(settings, system)[0]
     located = {"most_located": most_located(system, settings)} if engine == "stepping" else {}
+    step = settings.real_time if engine == "stepping" else None  # `cost` tries other engines too
     return Run(
         stop=settings.stop, start=settings.start, every=netlist.record.every, method=method,
         accuracy=settings.accuracy, record=patterns,
         between=between or netlist.record.every is None,  # the curve of a step goes through its rows inside
-        engine=engine, **located,
+        engine=engine, **located, fixed_step=step, real_time=step is not None,
         first_step=settings.first_step, max_step=settings.max_step or np.inf, step_floor=settings.step_floor,
         max_steps=budget(types, "max_steps", settings.max_steps),
         max_events=budget(types, "max_events", settings.max_events), max_wall=settings.max_wall,

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from fairlead.netlist.netlist import Netlist
     from fairlead.netlist.settings import RunSettings
     from fairlead.outside import Stepping
+    from fairlead.pacing import Pacer
     from fairlead.result import Result
     from fairlead.statics import StaticsOfLines
     from fairlead.system.compiled.system import System
@@ -248,9 +249,9 @@ class Model:
 
     def _run(
         self, out: str | os.PathLike[str] | Place | None, force: bool, progress: Progress | None, profile: bool,
-        check: bool, settings: RunKeywords, called: str,
+        check: bool, settings: RunKeywords, called: str, pacer: Pacer | None = None,
     ) -> Result:  # fmt: skip
-        """`run`, whichever of the two was called."""
+        """`run`, whichever of the two was called; a `pacer` keeps time with a clock."""
         from fairlead.netlist.keywords import with_keywords
         from fairlead.running import run
 
@@ -269,7 +270,7 @@ class Model:
         path = pathlib.Path("results") / self.netlist.name if isinstance(out, Place) else out
         result = run(
             self.netlist, netlist, system, None if path is None else pathlib.Path(path),
-            force=force, progress=progress, profile=profile, begun=begun,
+            force=force, progress=progress, profile=profile, begun=begun, pacer=pacer,
         )  # fmt: skip
         for remark in result.remarks:
             warnings.warn(remark, RunWarning, stacklevel=3)

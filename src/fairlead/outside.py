@@ -119,6 +119,11 @@ class Stepping:
         return float(self._memory.number["t"])
 
     @property
+    def overruns(self) -> int:
+        """With `real_time`: steps so far that met the bound on their work, or were taken again."""
+        return int(self._memory.number["overruns"])
+
+    @property
     def inputs(self) -> tuple[str, ...]:
         """Names of what can be set."""
         return tuple(self._inputs)
@@ -162,6 +167,7 @@ class Stepping:
         """Go on with the values of parameters that were set."""
         if self._next.own is not self._now.own:
             going = gone_on(self._now.going, self._now.own, self._next.own, self.t, self._span, begun=self._begun)
+            going.active.memory.number["overruns"] = self._memory.number["overruns"]
             self._now = self._next = self._next._replace(going=going)
             self._values = None
             self._told(self._memory)
@@ -169,7 +175,8 @@ class Stepping:
     def _told(self, memory: Memory) -> None:
         """Tell a run that has just been made how it is used."""
         memory.number["restrict_at"] = NEVER_LOOK
-        memory.number["samples"] = 1  # forces are those of the point, not of the step before it
+        if not self._going.run.real_time:
+            memory.number["samples"] = 1  # forces are those of the point, not of the step before it
         memory.spread()
 
     def get(self, name: str) -> float:

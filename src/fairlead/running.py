@@ -16,6 +16,7 @@ from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
+from fairlead.analysis.record.kept_time import kept_time, overrun_remarks
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.met_together import met_together
 from fairlead.analysis.record.met_together import remark as of_blows
@@ -42,6 +43,7 @@ from fairlead.errors import Fault, ModelError, UsageError
 from fairlead.integrate import Outcome, integrate
 from fairlead.integrate.ida.solver import require_package
 from fairlead.integrate.problem import Run, Status
+from fairlead.integrate.underway import Underway
 from fairlead.interruption import Interruption
 from fairlead.netlist.netlist import Netlist
 from fairlead.netlist.settings import RunSettings
@@ -58,18 +60,21 @@ from fairlead.watch import Watch, least_jumps
 
 if TYPE_CHECKING:
     from fairlead.flatten.flat_model import FlatModel
+    from fairlead.pacing import Pacer
     from fairlead.system.arrays.recording import OutputSignal
     from fairlead.system.compiled.system import System
 
 
 def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.Path | None, *, force: bool,
         progress: Callable[[float, float, Any], None] | None, profile: bool, begun: float,
-        peaks: bool = True, told: bool = True, kept: Sequence[str] | None = None) -> Result:  # fmt: skip
+        peaks: bool = True, told: bool = True, kept: Sequence[str] | None = None,
+        pacer: Pacer | None = None) -> Result:  # fmt: skip
     """Run a compiled model and return its results, also of a run that fails. Raises ModelError, UsageError.
 
     They go to the directory `path`, or stay in memory when that is None. Without `peaks` extremes and limits are not
     looked for, and on a grid nothing between its rows; without `told` there are no remarks: both cost as much as the
     loop of a small model. Of signals that fit no pattern in `kept` the extremes are known and no row; None keeps all.
+    A `pacer` keeps time with a clock.
     """
     faults = unreasonable(netlist, settings, system.flat)
     if faults := faults + interface_faults(netlist, system.flat.assembly.entries, system):
@@ -107,7 +112,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
                       together, GaveWay(system, asked.start), WentRound(system), progress, interruption, event_rows,
                       settings.accuracy,
                       peaks, None if kept is None else columns)  # fmt: skip
-        outcome = integrate(system, asked, watch)
+        outcome = integrate(system, asked, watch, pacer or Underway.go_on)
         interruption.between_blocks = True  # also where there was no block: what there is gets written
         for controller in outcome.problem.controllers:
             controller.end()
@@ -118,11 +123,13 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, asked, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.longest_dwell
+        summary["real_time"] = kept_time(outcome, asked, pacer)
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back),
                                      of_blows(summary["met_together"])) if said]  # fmt: skip
         found = [*watch.below.remarks(), *watch.wind_up.remarks(), *watch.rounded.remarks(), *watch.open_.remarks(),
-                 *watch.gave_way.remarks(), *watch.went_round.remarks(), *inexact]
+                 *watch.gave_way.remarks(), *watch.went_round.remarks(), *inexact,
+                 *overrun_remarks(summary["real_time"])]  # fmt: skip
         summary["remarks"] = [*header["remarks"], *found] if told else []
         if profile:
             summary["profile"] = _profile(outcome, compiled, time.perf_counter() - begun)

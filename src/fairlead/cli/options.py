@@ -39,6 +39,13 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Print more, and tracebacks.")]
 
 
+def with_space(text: str) -> str:
+    """A quantity as netlists have it: `1ms` is as good as `1 ms` on a command line."""
+    import re
+
+    return re.sub(r"(?<=[0-9.])(?=(?![eE][-+]?[0-9])[a-zA-Z%])", " ", text.strip())
+
+
 def parse_settings(texts: list[str]) -> dict[str, str]:
     """`["mu=0.6"]` as `{"mu": "0.6"}`; the values stay text, the netlist stage knows their units.
 

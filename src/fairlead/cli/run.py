@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairlead.cli.exit_codes import BUDGET, INTERRUPTED, LIMIT_BROKEN, NUMERICAL_FAILURE, OK
-from fairlead.cli.options import AllowFmu, AsJson, Libraries, Netlist, Quiet, Settings, Verbose, parse_settings
+from fairlead.cli.options import (
+    AllowFmu,
+    AsJson,
+    Libraries,
+    Netlist,
+    Quiet,
+    Settings,
+    Verbose,
+    parse_settings,
+    with_space,
+)
 from fairlead.cli.places import refuse_place
 from fairlead.cli.terminal import echo
 from fairlead.errors import RunWarning
@@ -17,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from fairlead import Model, Result
+    from fairlead.pacing import Pacer
 
 EXIT_CODES = {"finished": OK, "interrupted": INTERRUPTED, "budget": BUDGET}
 """How the status in run.json ends the process; any other status is a numerical failure."""
@@ -35,6 +46,14 @@ def run(
     out: Annotated[
         pathlib.Path | None,
         typer.Option("--out", "-o", metavar="DIR", help="Leave the results here. Default: results/NAME."),
+    ] = None,
+    real_time: Annotated[
+        str | None,
+        typer.Option(
+            "--real-time",
+            metavar="STEP",
+            help="Steps of this length, such as 1ms, each when the clock is due. Without it: --set run.real_time=1ms.",
+        ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the results of a finished run.")] = False,
     csv: Annotated[bool, typer.Option("--csv", help="Also write the signals as series.csv.")] = False,
@@ -56,7 +75,8 @@ def run(
 
     refuse_place("--out", out, folder=True)
     chosen = read_settings(settings_file) if settings_file is not None else {}
-    model = fairlead.load(netlist, set={**chosen, **parse_settings(settings)}, libraries=libraries, allow_fmu=allow_fmu)
+    given = {**chosen, **parse_settings(settings), **_step_of_clock(real_time, settings)}
+    model = fairlead.load(netlist, set=given, libraries=libraries, allow_fmu=allow_fmu)
     if report:
         from fairlead.analysis.statics.to_show import shown_besides
 
@@ -67,7 +87,7 @@ def run(
         if not (quiet or as_json):
             seen = Growing(model, out or pathlib.Path("results") / model.netlist.name, LARGE, progress)
             seen.before()
-        result = model.run(out=out or Place.RESULTS, force=force, progress=seen, profile=profile, check=False)
+        result = model._run(out or Place.RESULTS, force, seen, profile, False, {}, "run", _pacer(model, real_time))
     cut_short = bool(result.run.get("routes")) and _interrupted(lambda: _compare_with_statics(model, result))
     if not as_json:  # the run is whole, and its summary waits for no figure
         _tell(result, quiet=quiet, profile=profile)
@@ -79,6 +99,29 @@ def run(
         echo(f"interrupted while figures were drawn; the results in {result.folder} are whole", err=True)
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(exit_code(result.run))
+
+
+def _step_of_clock(real_time: str | None, settings: list[str]) -> dict[str, str]:
+    """What `--real-time` sets."""
+    if real_time is None:
+        return {}
+    from fairlead.errors import Location
+    from fairlead.netlist.settings_file import Setting
+
+    if any(text.partition("=")[0].strip() == "run.real_time" for text in settings):
+        raise typer.BadParameter("--real-time gives the step, and so does --set run.real_time. Leave one of them out.")
+    return {"run.real_time": Setting(with_space(real_time), Location("--real-time"))}
+
+
+def _pacer(model: "Model", real_time: str | None) -> "Pacer | None":
+    """Who keeps time with the clock, if that is asked for."""
+    if real_time is None:
+        return None
+    from fairlead.pacing import Pacer
+
+    step = model.netlist.run.real_time
+    assert step is not None, "it was given"
+    return Pacer(step)
 
 
 def exit_code(outcome: dict[str, Any]) -> int:

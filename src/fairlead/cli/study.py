@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import fairlead.cli.completion as completion
+from fairlead.cli.options import with_space
 from fairlead.cli.places import place
 from fairlead.cli.terminal import console
 
@@ -27,12 +28,10 @@ Fresh = Annotated[bool, typer.Option("--fresh", help="Do not use runs kept from 
 
 def number(option: str, text: str, unit: str, *, zero: bool = False) -> float:
     """A number of an option. `60s` is as good as `60 s` on a command line."""
-    import re
-
     from fairlead.quantities import QuantityError, si
 
     try:
-        value = si(re.sub(r"(?<=[0-9.])(?=(?![eE][-+]?[0-9])[a-zA-Z%])", " ", text.strip()), unit)
+        value = si(with_space(text), unit)
     except QuantityError as error:
         raise typer.BadParameter(f"{option}: {error}") from None
     if value < 0 or (value == 0 and not zero):

@@ -16,7 +16,7 @@ def print_summary(run: Mapping[str, Any], directory: object) -> None:
 
 def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, str]]:
     """(what, value with unit) of each row."""
-    from fairlead.analysis.record import gave_way
+    from fairlead.analysis.record import gave_way, kept_time
     from fairlead.analysis.record.below_weight import rows_of_table
 
     return [
@@ -29,6 +29,7 @@ def summary_rows(run: Mapping[str, Any], directory: object) -> list[tuple[str, s
         ("switches", f"{run.get('switches', UNKNOWN)}"),
         ("worst creep", _creep(run.get("worst_creep"))),
         ("energy closure", _closure(run.get("energy"))),
+        *kept_time.rows_of_table(run.get("real_time")),
         *_lost(run.get("lost")),
         *_changed_starts(run.get("changed_starts")),
         *_together(run.get("released_together")),

@@ -18,7 +18,7 @@ FIELDS = (
     "t", "t_next", "start", "stop", "phase", "rows", "events", "at_y", "context", "call_outputs", "worst", "culprit",
     "dense", "midway", "replanned", "replans", "no_pivots", "factorisations", "reduced_valid", "n", "n_reduced",
     "n_matrix", "at_matrix_starts", "at_matrix_rows", "at_matrix", "at_row_scale", "at_column_scale", "at_row_order",
-    "at_column_order", "at_absolute", "at_relative", "at_cap",
+    "at_column_order", "at_absolute", "at_relative", "at_cap", "overruns",
 )  # fmt: skip
 """Single values of the structs, and addresses in them, that the wrapper reads or writes."""
 REPLACED = (

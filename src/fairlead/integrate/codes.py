@@ -25,9 +25,10 @@ NOT_CONSISTENT, TOO_MANY_PASSES, NO_ROOM, RELEASED, RUBBED, APART = 30, 31, 32, 
 """Outcomes of a settlement, besides: no values, or no impulse, that the equations agree with; zones that change without
 end; a full buffer; other zones, so that another pass has to follow; a rebound with friction; motions that are given
 part what is to hold together."""
-CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH = 40, 41, 42, 43, 44
+CYCLES, DIVERGES, JUMPS, ONCE_MORE, AFRESH, CAPPED = 40, 41, 42, 43, 44, 45
 """Outcomes of a step of `stepping`, besides: its zones go in a circle; its iteration does not converge; a law jumps in
-it, at `t_cut`. Inside its iteration only: another solve is to follow; or all of them, without the rows of the cache."""
+it, at `t_cut`; it has had all the solves that it may have. Inside its iteration only: another solve is to follow; or
+all of them, without the rows of the cache."""
 GO_ON = 100
 """The outcome of a phase: the loop takes the next one."""
 
@@ -47,6 +48,14 @@ INSIDE, PASSED, INSIDE_PASSED, GRID = 3, 4, 5, 6
 no grid point, and a row inside one; a grid point inside one."""
 PARABOLA, QUARTIC = 1, 3
 """Rows inside a step, evenly spaced, that its dense output goes through: of `stepping`, and of the other engines."""
+
+UNSETTLED, UNSOLVED, REPEATED = 1, 2, 3
+"""What had a step of a run in real time overrun (frames.py): zones were to switch once more, its equations were not
+solved yet, or it was taken again."""
+MOST_IN_FRAME = 16
+"""Solves that a step of a run in real time may have: between two of them zones switch, or its equations are bent."""
+EVEN = 1e-6
+"""Share of such a step by which two instants are one: after 1e9 of them the time is known to 1e-7 of one."""
 
 NEVER = 1e308
 """A time that does not come; minus that, one that has never been."""

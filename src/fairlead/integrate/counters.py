@@ -28,6 +28,7 @@ COUNTS = (
     "replans",
     "partial_steps",
     "projections",
+    "overruns",
 )
 """Counters kept by the compiled loop, each in the struct of its owner (memory/of_*.py)."""
 
@@ -73,6 +74,8 @@ class Counters:
     """Steps in which only what moves was computed, see parts.py."""
     projections: int
     """Ends of steps brought back to relations of positions that are kept, see position.py."""
+    overruns: int
+    """Steps of a run in real time that met the cap on their work, or were taken again (stepping/frames.py)."""
     switches_by_machine: NDArray[np.int64]
     """[machines]: zone changes of each."""
     rejections_by_unknown: NDArray[np.int64]

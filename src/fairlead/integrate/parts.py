@@ -46,7 +46,7 @@ CARRIED = (
     "error", "last_error",
     "cut_at", "dropped", "most_moved", "t_piece", "t_land", "t_next", "t_row", "t_release", "t_last_switch",
     "theta_raise", "gap", "gap_before", "t_cut", "t_kink", "growth", "t_growth", "swing_step", "allowed",
-    "allowed_before", "block_steps",
+    "allowed_before", "block_steps", "trying", "over", "overrun_how", "overrun_at", "t_overrun",
     *COUNTS,
 )  # fmt: skip
 """Single values that say where a run is; what else there is belongs to a problem, or is made anew in every step."""
@@ -95,7 +95,7 @@ class ActiveSubsystem:
         self.whole, self.whole_problem = self.memory, self.problem
         self.part: Any = None
         n = len(problem.initial)
-        able = self._engine.works_on_parts and n >= LEAST
+        able = self._engine.works_on_parts and n >= LEAST and not run.real_time  # a cut takes as long as many steps
         self.subsystem: Any = self.problem.subsystem if able else None
         self._cost = LOOK_COST // max(n, 1) + LOOK_BASE
         self._pause, self._margin, self._since = self._cost, MARGIN, 0

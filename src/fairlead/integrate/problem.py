@@ -236,6 +236,9 @@ class Run:
     fixed_step: float | None = None
     """Take this step without error control. Time events are landed on; switches are located, but for `stepping`, which
     has them inside its steps then. Only at a jump of a law that is not known to hold a row it ends a step sooner."""
+    real_time: bool = False
+    """Of `stepping` with a `fixed_step`: steps end where multiples of it after the start do, and the work in each is
+    bounded (stepping/frames.py). What was not done in time is counted (`Counters.overruns`)."""
     step_floor: float | None = None
     """Smallest step, and what several switches in a row must advance; None: what time can resolve (1e-18
     of the span at least) for steps, 1e-12 of the span for switches."""
@@ -344,6 +347,8 @@ class Outcome:
     """[n]: how many impulses a row that rebounds took together with others."""
     first_joined: Floats
     """[n]: when it took the first of them, s."""
+    first_overrun: tuple[float, str] | None
+    """Of a run in real time: when the first step overran, s, and what with."""
     wall: float
     """Seconds spent, all included."""
     loop_wall: float

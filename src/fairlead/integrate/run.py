@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import numpy as np
 
@@ -11,14 +12,17 @@ from fairlead.integrate.engines import engine_of
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.prepare import check_lengths
 from fairlead.integrate.problem import CALLBACKS, Block, End, OnBlock, Outcome, Problem, Run, Status
-from fairlead.integrate.sentences import culprits_of, sentence_of
+from fairlead.integrate.sentences import culprits_of, first_overrun, sentence_of
 from fairlead.integrate.underway import Underway
 
 
-def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Outcome:
+def integrate(
+    problem: Problem, run: Run, on_block: OnBlock | None = None, go_on: Callable[[Underway], None] = Underway.go_on
+) -> Outcome:  # fmt: skip
     """Integrate `problem` over `run`; hand each `Block` to `on_block`, or keep them in the outcome.
 
-    `on_block` may return an `End`: the run has failed then.
+    `on_block` may return an `End`: the run has failed then. `go_on` has a run that is under way do a slice: who keeps
+    time (fairlead/pacing.py) says when.
 
     The problem is not changed: it may be run again, and by several threads at once.
     Never raises for what happens in the run: the outcome says how it ended and keeps all that was
@@ -40,7 +44,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
     stepping = time.perf_counter()  # loading an engine, or compiling it once for this machine, is in no budget
     try:
         while going.served and not ends:
-            going.go_on()
+            go_on(going)
             over = run.max_wall is not None and time.perf_counter() - stepping > run.max_wall
             if over and going.served:
                 going.status = Status.MAX_WALL
@@ -69,6 +73,7 @@ def integrate(problem: Problem, run: Run, on_block: OnBlock | None = None) -> Ou
         not_given_back=memory.array["not_given_back"].copy(),
         joined=memory.array["joined"].copy(),
         first_joined=memory.array["first_joined"].copy(),
+        first_overrun=first_overrun(memory, own),
         wall=time.perf_counter() - begun,
         loop_wall=going.wall,
         loop_cpu=going.cpu,
@@ -88,6 +93,8 @@ def check(problem: Problem, run: Run) -> None:
     engine = engine_of(run)
     if engine.chooses_steps and run.fixed_step is not None:
         raise ValueError(f"fixed_step is for rodas and stepping; {engine.name} chooses its own steps.")
+    if run.real_time and (run.fixed_step is None or engine.name != "stepping"):
+        raise ValueError("real_time is for stepping with a fixed_step.")
     if (problem.moves[:, 2] >= 0).any() and not engine.keeps_relations:
         raise ValueError(f"{engine.name} does not keep relations of positions; rodas does.")
     if not 0.5 <= run.theta <= 1.0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fairlead.integrate.codes import REPEATED, UNSOLVED
 from fairlead.integrate.memory.arena import Memory
 from fairlead.integrate.problem import Problem, Run, Status
 
@@ -48,6 +49,21 @@ def last_patterns(memory: Memory) -> np.ndarray:
     nz, passes = int(memory.number["n_machines"]), int(memory.number["passes"])
     history = memory.array["zones_history"].reshape(-1, nz)[:passes]
     return history[passes // 2 :]
+
+
+def first_overrun(memory: Memory, problem: Problem) -> tuple[float, str] | None:
+    """When the first step of a run in real time overran, and what with; None if none did."""
+    number = memory.number
+    if not number["overruns"]:
+        return None
+    at = int(number["overrun_at"])
+    if number["overrun_how"] == REPEATED:
+        what = "the step was taken again"
+    elif number["overrun_how"] == UNSOLVED:
+        what = f"its equations were not solved, least of all for {problem.unknown_names[at]}"
+    else:
+        what = f"{problem.machine_names[problem.guard_machine[at]]} was to change its zone once more"
+    return float(number["t_overrun"]), what
 
 
 AT_START = "Give a better initial value, or check that the equations have a solution in these zones."

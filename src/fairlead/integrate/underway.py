@@ -55,8 +55,11 @@ class Underway:
         """True as long as the run goes on."""
         return self.status in SERVED
 
-    def go_on(self, attempts: int | None = None) -> None:
-        """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for."""
+    def go_on(self, attempts: int | None = None, *, hand_over: bool = True) -> None:
+        """Enter the loop for at most so many trial steps (None: some SLICE seconds), and serve what it asks for.
+
+        Without `hand_over` the buffers are kept as long as there is room; who asks for that calls `flush`.
+        """
         before = self.wall
         address, most = self.active.memory.address, self._attempts if attempts is None else attempts
         self.status = Status(self._timed(lambda: self._advance(address, most)))
@@ -64,7 +67,8 @@ class Underway:
         number = self.active.memory.number
         if self.status == Status.REACTIVATE and number["boundary_switched"]:
             number["rows"] -= 1  # the row after the switch; the whole settles there once more
-        self.flush()
+        if hand_over or self.status == Status.BUFFER_FULL:
+            self.flush()
         if self.status == Status.REPLAN:
             self._replan()
         elif self.status == Status.RESTRICT:

@@ -37,6 +37,7 @@ class RunKeywords(TypedDict, total=False):
     engine: Literal["auto", "rodas", "stepping", "ida"]
     method: Literal["auto", "rodas5p", "rodas3p"]
     max_step: Quantity | None
+    real_time: Quantity | None
     first_step: Quantity | None
     step_floor: Quantity | None
     max_wall: Quantity | None

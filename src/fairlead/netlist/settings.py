@@ -41,6 +41,7 @@ Duration = Annotated[Seconds, Field(gt=0)]
 
 
 LONGEST_FILE_NAME = 200  # bytes; file systems take 255
+SHORTEST_FRAME = 1e-9  # of a run, and of the times themselves: a billion steps, whose ends are known to 1e-7 of one
 SHORTEST = 1e-12  # s, and as a share of the times themselves: below it matrices of the engines are rounded away
 
 
@@ -61,6 +62,9 @@ class RunSettings(Strict):
     """The Rosenbrock method; auto takes rodas5p. rodas3p (order 3) serves loose accuracies with few switches."""
     max_step: Duration | None = None
     """Longest step."""
+    real_time: Duration | None = None
+    """Steps of this length, with bounded work in each, by the engine stepping: `1 ms` to run beside a clock. What is
+    not done within the bound is counted as an overrun (docs/real_time.md)."""
     first_step: Duration | None = None
     """First step tried, at the start and after every switch."""
     step_floor: Duration | None = None
@@ -86,6 +90,27 @@ class RunSettings(Strict):
         if self.stop - self.start < least:
             what = f"stop = {self.stop:.15g} s is {self.stop - self.start:.2g} s after start = {self.start:.15g} s"
             raise QuantityError(what, f"A run lasts {least:.2g} s at least here. Is the unit meant?")
+        return self
+
+    @model_validator(mode="after")
+    def _steps_fit_the_run(self) -> RunSettings:
+        step, span = self.real_time, self.stop - self.start
+        if step is None:
+            return self
+        given = f"real_time = {step:.9g} s"
+        least = SHORTEST_FRAME * max(span, abs(self.start), abs(self.stop))
+        if step > span:
+            raise QuantityError(f"{given} is longer than the run, which lasts {span:.9g} s",
+                                "Give the length of one step, such as 1 ms.")  # fmt: skip
+        if step < least:
+            raise QuantityError(f"{given} is too short for a run to {self.stop:g} s",
+                                f"A step lasts {least:.2g} s at least here. Is the unit meant?")  # fmt: skip
+        if self.engine not in ("auto", "stepping"):
+            raise QuantityError(f"{given}, and engine = {self.engine}, which has no steps of one length",
+                                "Take engine: stepping (or auto), or leave real_time out.")  # fmt: skip
+        for name, other in (("max_step", self.max_step), ("first_step", self.first_step)):
+            if other is not None and (name == "first_step" or other < step):
+                raise QuantityError(f"{given}, and {name} = {other:.9g} s", f"All steps are alike: leave {name} out.")
         return self
 
 

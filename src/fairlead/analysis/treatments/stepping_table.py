@@ -58,6 +58,8 @@ class Class(NamedTuple):
     parts: Callable[[System, RunSettings], Iterable[str]]
     """Paths of the parts that make a scene one of this class; none if it is not."""
     way_out: str = WAY_OUT
+    change: str = ""
+    """What would have a scene that is refused taken."""
     auto: str = ""
     """Why `auto` takes `rodas` for what is refused, or runs inside steps less exactly."""
 
@@ -150,12 +152,12 @@ TABLE: tuple[Class, ...] = (
     Class("contacts and gears that hold nodes without inertia, whose forces do not tell their speed", REFUSED,
           "stepping does not take what holds nodes without inertia between springs or at gears ({}): it knows the mean "
           "over a step of their speeds, and no jumps", lambda system, _: at_nodes_without_inertia(system),
-          "Give the node an inertia, or take run.engine: rodas (or auto, or ida).",
+          "Give the node an inertia, or take run.engine: rodas (or auto, or ida).", "Give the node an inertia",
           "a contact or a gear holds a node without inertia, whose forces do not tell its speed"),
     Class("contacts between a node with mass and one without", REFUSED,
           "stepping does not hold contacts between a node with mass and one without ({}): of the latter it knows the "
           "mean over a step", lambda system, _: between_mass_and_none(system),
-          "Give that node a mass, or take run.engine: rodas (or auto).",
+          "Give that node a mass, or take run.engine: rodas (or auto).", "Give that node a mass",
           "a contact holds between a node with mass and one without"),
     Class("relations of positions (`hold_position`)", REFUSED,
           "stepping does not bring positions back to what {} keeps after every step, so they would drift",
@@ -164,6 +166,7 @@ TABLE: tuple[Class, ...] = (
           "stepping rounds switches to its steps, and a rigid stop ({}) is met at an instant, with an impulse",
           lambda system, _: rigid_stops(system),
           "Take run.engine: rodas (or auto, or ida), or a stop that gives (EndStop, Tether).",
+          "Take a stop that gives (EndStop, Tether)",
           "it locates the instants at which rigid stops are met"),
     Class("voltages, pressures and the like of nodes that store nothing, beside a quantity given in time", LANDED,
           "{} balances a quantity in time at once, and stepping knows it as its means over steps where it ends none at "
@@ -244,19 +247,29 @@ def beside_contacts(system: System) -> str | None:
 
 def refusal(system: System, settings: RunSettings) -> Fault | None:
     """Why `stepping`, asked for by name, does not run this scene; None where it does."""
-    if settings.engine != "stepping":
+    if settings.engine != "stepping" and settings.real_time is None:
         return None
     found = handling(system, settings)
     if found.way != REFUSED:
         return None
-    return Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+    if settings.real_time is None:
+        return Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
+    leave = f"{found.of.change}, or leave run.real_time out" if found.of.change else "Leave run.real_time out"
+    way_out = f"{leave}: only stepping has steps of one length."
+    return Fault(_where(system, found.parts), f"run.real_time: {found.why}.", way_out)
 
 
 def remark(system: System, settings: RunSettings) -> Iterator[Fault]:
     """What `stepping`, asked for by name, does not do as exactly as its accuracy says."""
-    if settings.engine != "stepping":
+    if settings.engine != "stepping" and settings.real_time is None:
         return
     found = handling(system, settings)
+    if settings.real_time is not None:  # no step ends at a switch
+        if found.parts:
+            way_out = "Compare with a run without run.real_time, and with one of half the step."
+            what = f"run.real_time: switches are inside steps, and {found.why}."
+            yield Fault(_where(system, found.parts), what, way_out)
+        return
     if found.way == INSIDE and found.parts:
         yield Fault(_where(system, found.parts), f"run.engine: {found.why}.", found.of.way_out)
     if means := list(_followed_at_once(system, settings)):

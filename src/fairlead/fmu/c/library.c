@@ -14,6 +14,7 @@ OFFERED Run *OF_MODEL(new)(void) { return run_new(); }
 OFFERED void OF_MODEL(free)(Run *run) { run_free(run); }
 OFFERED void OF_MODEL(reset)(Run *run) { run_reset(run); }
 OFFERED double OF_MODEL(time)(const Run *run) { return run_time(run); }
+OFFERED long long OF_MODEL(overruns)(const Run *run) { return run_overruns(run); }
 OFFERED const char *OF_MODEL(message)(const Run *run) { return run_message(run); }
 
 OFFERED int OF_MODEL(set)(Run *run, int input, double value) {

@@ -21,6 +21,8 @@ void NAME_reset(NAME *run);
 
 /* The time reached [s]. */
 double NAME_time(const NAME *run);
+/* Of a library made with run.real_time: steps so far that met the bound on their work, or were taken again. */
+long long NAME_overruns(const NAME *run);
 /* Set an input from here on: it takes effect at the beginning of the next advance, or from the start. */
 int NAME_set(NAME *run, int input, double value);
 /* Set a parameter that can be tuned, likewise; the run goes on with it from where it is. */

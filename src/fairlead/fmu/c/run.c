@@ -102,6 +102,8 @@ void run_reset(Run *run) {
 
 double run_time(const Run *run) { return *real(run, AT_T); }
 
+long long run_overruns(const Run *run) { return *whole(run, AT_OVERRUNS); }
+
 void run_set(Run *run, int input, double value) {
     real(run, AT_SET_VALUES)[input] = value;
     *whole(run, AT_SET_DUE) = 1;
@@ -255,12 +257,14 @@ static int go_over(Run *run) {
         tuned_apply(run->memory, run->tuned);
     } else {
         const double t = run_time(run);
+        const int64_t overruns = *whole(run, AT_OVERRUNS);
         kept_save(run->memory, room);
         forget_pivots(run);
         fill_anew(run);
         kept_restore(run->memory, room);
         *real(run, AT_STOP) = t + (*real(run, AT_STOP) - *real(run, AT_START));
         *real(run, AT_START) = *real(run, AT_T) = t;
+        *whole(run, AT_OVERRUNS) = overruns;
         take_units(run);
         run->begun = 1;
     }

@@ -17,6 +17,8 @@ void run_reset(Run *run);
 
 /* The time reached [s]. */
 double run_time(const Run *run);
+/* Made with run.real_time: steps so far that met the bound on their work, or were taken again. */
+long long run_overruns(const Run *run);
 /* Set an input from here on. It takes effect in the next run_settle or run_advance, or from the start. */
 void run_set(Run *run, int input, double value);
 /* An input as it was set last. */

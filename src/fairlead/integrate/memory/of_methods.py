@@ -46,6 +46,13 @@ RULE = Struct(
         "replanned",  # other pivots were tried for a matrix met midway
         "damps",  # what is stiff is at rest at the end of a step, since friction falls somewhere (jump_inside.py)
         "instant",  # no step was taken: the next time event is this instant
+        # a run in real time (frames.py)
+        "most_solves",  # what a step may have; 0: the run is none
+        "solves_had",  # what the step in hand has had
+        "trying",  # the step in hand was tried before
+        "over",  # it counts as an overrun already
+        "overruns",  # counter: steps that met the cap, or were taken again
+        "overrun_how", "overrun_at",  # of the first: codes.UNSETTLED and a guard, UNSOLVED and an unknown, or REPEATED
     ),
     numbers=(
         "least_theta",  # the theta that the run asks for
@@ -56,6 +63,7 @@ RULE = Struct(
         "t_cut",  # the time at which the step is to end instead, where something was found
         "t_kink",  # the last kink of a table that a step ended short of, passed or not; -NEVER before the first
         "allowed", "allowed_before",  # [s] the least that this block of steps, and the one before, allowed
+        "t_overrun",  # when the first overrun began; NEVER without one
     ),
     reals={
         "mean_slope": "n",  # slopes of this step: of the chord; of a mean, as a force is, from middle to middle

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fairlead.integrate.codes import MIDDLE, NEVER, PARABOLA
+from fairlead.integrate.codes import MIDDLE, MOST_IN_FRAME, NEVER, PARABOLA
 from fairlead.integrate.engine import Engine
 from fairlead.integrate.problem import Instance, Run
 
@@ -19,6 +19,7 @@ def stepping_numbers(run: Run, problem: Instance) -> Mapping[str, float]:
         "error_exponent": 1.0 / 3.0 if run.theta == MIDDLE else 1.0 / 2.0,
         "linear": int(problem.linear), "most_inside": PARABOLA,
         "samples": int(problem.samples), "t_kink": -NEVER,
+        "most_solves": MOST_IN_FRAME if run.real_time else 0, "t_overrun": NEVER, "overrun_at": -1,
         "has_limits": int(np.any(problem.limit_guard)),
         "n_quadratures": int(np.count_nonzero(problem.quadrature)),
         "locates": int(locates), "always_locates": int(locates), "damps": int(not locates and np.any(problem.falls)),

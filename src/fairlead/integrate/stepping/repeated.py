@@ -25,6 +25,7 @@ from fairlead.integrate.events.given_up import TOO_LONG, settle_at_start, take_a
 from fairlead.integrate.events.pace import not_finite_here
 from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.point.controller import smallest_step, step_after_rejection
+from fairlead.integrate.stepping.frames import is_too_late
 from fairlead.integrate.stepping.history import note_rejection
 from fairlead.integrate.stepping.passed_over import find_passed_guard
 from fairlead.integrate.stepping.switch_inside import AT_ONCE, find_missed_impulse, latch_switched
@@ -94,7 +95,7 @@ def halve_unsolved(m, h, status):
     if status == CYCLES:
         rule.theta_raise = min(rule.theta_raise + THETA_RISE, 0.5)
     repeat(run, m.events.guards, m.stepping, 0.5 * h, TOO_LONG)
-    if run.h_next >= smallest_step(run, point):
+    if run.h_next >= smallest_step(run, point) and not is_too_late(run, rule):
         return GO_ON
     if status == CYCLES:
         return NOT_SETTLED

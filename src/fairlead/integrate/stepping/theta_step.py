@@ -29,6 +29,7 @@ What steers it, where that is set and read; it is in `rule` (R), `exchange` (E),
     R midway           the matrix is met on the way          solve_once                 halve_or_replan, underway.py
     R searched         moves were taken back, or in vain     search_line                judge_residual
     R linearised       J and M are evaluated                 forget_jacobian            linearise_step
+    R solves_had       all solves of the step               solve_once, approach_laws  is_spent
     R locates          zones never change in a step          engine.py, trial.py        find_violators
     R frozen           they do not in this one               solve_in_zones             find_violators, predict_fronts
     E zones_differ     zones may not be those of J and M     whoever switches zones     linearise_step
@@ -46,7 +47,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from fairlead.integrate.codes import AFRESH, CYCLES, DIVERGES, DONE, INACCURATE, JUMPS, MIDDLE, ONCE_MORE
+from fairlead.integrate.codes import AFRESH, CAPPED, CYCLES, DIVERGES, DONE, INACCURATE, JUMPS, MIDDLE, ONCE_MORE
 from fairlead.integrate.linear.systems import solve_motion
 from fairlead.integrate.memory.foreign import compiled, copy, field_at, indices, reals
 from fairlead.integrate.stepping.active_set import begin_set, find_violators, follow_guards
@@ -88,7 +89,7 @@ MOST_SOLVES, MOST_LINEAR_SOLVES = 10, 3
 def take_theta_step(m, h):
     """Compute `y_end` and the zones that go with it.
 
-    Returns DONE, SINGULAR, INACCURATE, CYCLES, DIVERGES or JUMPS (a switch with a jump, at `t_cut`).
+    Returns DONE, SINGULAR, INACCURATE, CYCLES, DIVERGES, JUMPS (a switch with a jump, at `t_cut`) or CAPPED.
     """
     problem, exchange, guards = m.problem, m.stepping.exchange, m.events.guards
     begin_step(m, h)
@@ -106,7 +107,7 @@ def take_theta_step(m, h):
         find_violators(m, h)
         if guards.n_fired > 0:
             solves = 0
-            verdict = switch_zones(m, h)
+            verdict = CAPPED if is_spent(m.stepping.rule) else switch_zones(m, h)
             if verdict != ONCE_MORE:
                 return verdict
         elif problem.linear == 1 and exchange.unchecked == 0:
@@ -128,6 +129,7 @@ def begin_step(m, h):
     begin_set(m.run, m.events.settling, stepping)
     predict_fronts(m, h)
     exchange.assumed, exchange.captured_by_row, stepping.rule.searched = 0, 0, 0
+    stepping.rule.solves_had = 0
     if m.problem.linear == 0 and stepping.rule.locates == 1:
         forget_jacobian(stepping.rule)
 
@@ -149,6 +151,7 @@ def solve_once(m, h, solves, solved, previous):
     alone = solved and exchange.rows_alone == 1 and m.events.settling.one_by_one == 0
     if alone and rows_are_known(problem, exchange):
         solve_exchanged(problem, point, linear, stepping, h)
+        stepping.rule.solves_had += 1
         return ONCE_MORE, previous
     return approach_laws(problem, point, linear, stepping, h, solves, previous)
 
@@ -176,8 +179,11 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
         elif exchange.assumed > 0:
             invalidate_assumed(stepping)
             return AFRESH, size
+        if verdict == ONCE_MORE and is_spent(rule):
+            verdict = CAPPED
         if verdict != ONCE_MORE:
             return verdict, size
+    rule.solves_had += 1
     if exchange.n_exchanged > 0 and problem.linear == 1:
         learn_constants(point, matrices, stepping)
     solve_motion(linear, point.at_b)
@@ -185,6 +191,12 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
         remember_move(point, rule)
     move_end(point, rule)
     return ONCE_MORE, size
+
+
+@compiled
+def is_spent(rule):
+    """True if the step has had all the solves that it may have, which is bounded in a run in real time (frames.py)."""
+    return rule.solves_had >= rule.most_solves > 0
 
 
 @compiled

@@ -40,6 +40,7 @@ from fairlead.integrate.point.even_steps import FINE, rounded
 from fairlead.integrate.point.stiff import mark_stiff
 from fairlead.integrate.point.swings import judge_swings
 from fairlead.integrate.stepping.dense_output import end_algebraic_speeds, hold_inside, show_inside
+from fairlead.integrate.stepping.frames import end_in_time, propose_frame
 from fairlead.integrate.stepping.history import begin_history, choose_next_step, remember_slope
 from fairlead.integrate.stepping.jump_at_end import find_due_jump
 from fairlead.integrate.stepping.located_step import CAREFUL, balance_end, holds_with_slip, remember_middle, stop_slip
@@ -72,7 +73,7 @@ def attempt_stepping(m):
         return spent
     if run.adaptive == 0 and rule.failed == 0 and rule.localising == 0:
         run.h_next = run.fixed_step
-    h = propose(run, point)
+    h = propose_frame(run, point, rule) if rule.most_solves > 0 else propose(run, point)
     rule.instant = 0
     if is_instant(run, point, h):
         arrive_at_instant(run, point, m.events.guards)
@@ -83,6 +84,8 @@ def attempt_stepping(m):
         h = step_over_kink(run, point, rule, h)
     run.h = h
     status = take_theta_step(m, h)
+    if rule.most_solves > 0:
+        status = end_in_time(m, status)
     if status == INACCURATE:
         return halve_or_replan(m, h)
     rule.replanned = 0
@@ -196,6 +199,7 @@ def accept_step(m, h, crossed):
     recorder, rule = m.recorder, m.stepping.rule
     recorder.any_stiff = mark_stiff(m.problem, m.linear.matrices, recorder, h)
     rule.failed = max(rule.failed - 1, 0)
+    rule.trying, rule.over = 0, 0
     rule.theta_raise = THETA_FALL * rule.theta_raise if rule.theta_raise > THETA_LEAST else 0.0
     accept(m, h, crossed)
 
