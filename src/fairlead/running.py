@@ -16,7 +16,7 @@ from fairlead.analysis.record.event_rows import EventRows
 from fairlead.analysis.record.gave_way import GaveWay
 from fairlead.analysis.record.gone_with_effects import without_gone
 from fairlead.analysis.record.impacts import changed_starts, lost_in_impacts
-from fairlead.analysis.record.kept_time import kept_time, overrun_remarks
+from fairlead.analysis.record.kept_time import overrun_remarks
 from fairlead.analysis.record.limits import read_limits
 from fairlead.analysis.record.met_together import met_together
 from fairlead.analysis.record.met_together import remark as of_blows
@@ -123,7 +123,7 @@ def run(netlist: Netlist, settings: RunSettings, system: System, path: pathlib.P
             outcome = dataclasses.replace(outcome, sentence=said)
         summary = _summary(outcome, watch, asked, compiled, time.perf_counter() - begun)
         summary["dwell"] = asked.longest_dwell
-        summary["real_time"] = kept_time(outcome, asked, pacer)
+        summary["real_time"] = _kept_time(outcome, asked, pacer)
         inexact = [said for said in (rounded_in_impacts(system, summary["lost"]),
                                      no_rebound(system, outcome.not_given_back),
                                      of_blows(summary["met_together"])) if said]  # fmt: skip
@@ -283,6 +283,18 @@ def _energy(outcome: Outcome, watch: Watch, asked: Run) -> dict[str, Any]:
 def _projected(outcome: Outcome, system: System) -> dict[str, float] | None:
     """Steps brought back to relations of positions, and the farthest way in error weights; None where none are kept."""
     return {"steps": outcome.counters.projections, "most": outcome.most_moved} if kept_positions(system) else None
+
+
+def _kept_time(outcome: Outcome, asked: Run, pacer: Pacer | None) -> dict[str, Any] | None:
+    """How a run in real time went; None of any other."""
+    if not asked.real_time:
+        return None
+    first = outcome.first_overrun
+    return {
+        "step": asked.fixed_step, "steps": outcome.counters.steps, "overruns": outcome.counters.overruns,
+        "first": None if first is None else {"t": first[0], "what": first[1]},
+        "clock": None if pacer is None else pacer.plain(),
+    }  # fmt: skip
 
 
 def _status(outcome: Outcome) -> str:

@@ -44,6 +44,7 @@ ALLOWED = {
     "distinct": set(),
     "arguments": {"errors", "quantities"},
     "interruption": set(),
+    "pacing": {"integrate"},
     "report": {"arguments", "errors", "quantities", "patterns", "results", "analysis", "flatten"},
 }
 # May import all that lies before:

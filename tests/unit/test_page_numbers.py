@@ -35,6 +35,7 @@ from typer.testing import CliRunner
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))  # scripts that import each other by name
 
 import hose_estimates
+import real_time
 import single_bend
 
 import fairlead
@@ -86,6 +87,14 @@ def test_what_effects_change_in_the_winch_is_what_the_page_on_drives_shows(row: 
     same_to_the_last_digit(
         [speed.split()[0], dip.split()[0]], [f"{v[late].mean():.4f}", f"{v[result.t >= 4].min():.4f}"]
     )
+
+
+@pytest.mark.parametrize("name", real_time.MODELS)
+def test_errors_of_steps_of_one_length_are_those_of_the_page_on_real_time(name: str) -> None:
+    shown = [row for row in table("real_time", "| model | signals | step |") if row[0] == name]
+    found = list(real_time.rows(name))
+    assert [row[:3] for row in found] == [row[:3] for row in shown]
+    same_to_the_last_digit([one for row in shown for one in row[3:]], [one for row in found for one in row[3:]])
 
 
 def test_the_methods_side_by_side_are_those_of_the_page_on_friction(

@@ -3,24 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from fairlead.integrate import Outcome
-    from fairlead.integrate.problem import Run
-    from fairlead.pacing import Pacer
-
-
-def kept_time(outcome: Outcome, asked: Run, pacer: Pacer | None) -> dict[str, Any] | None:
-    """For run.json; None of a run that is none in real time."""
-    if not asked.real_time:
-        return None
-    first = outcome.first_overrun
-    return {
-        "step": asked.fixed_step, "steps": outcome.counters.steps, "overruns": outcome.counters.overruns,
-        "first": None if first is None else {"t": first[0], "what": first[1]},
-        "clock": None if pacer is None else pacer.plain(),
-    }  # fmt: skip
+from typing import Any
 
 
 def overrun_remarks(kept: Mapping[str, Any] | None) -> list[str]:

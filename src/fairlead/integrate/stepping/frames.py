@@ -2,14 +2,14 @@
 
     frame k        from start + (k - 1) `fixed_step` to start + k `fixed_step`. A step ends with it; one that a time
                    event ends before it is followed by one for the rest
-    solves         `most_solves` at most in a trial step. One that wants more ends with what the last solve has left, in
-                   the zones which that solve was in: its equations hold there, guards are above zero
+    solves         `most_solves` at most. If zones still switch then, the step is taken in the zones of its start, which
+                   has as many solves again; the next one judges the same guards. If its equations are not solved then,
+                   it ends with what the last solve has left
     taken again    what has no such end: no good pivots, a matrix that is singular, a number that is none, a law that
                    jumps. It is halved three times at most, then the run ends
 
-Either is an overrun, counted once a step. The step after one begins where it ended, and judges the same guards. Settled
-is in full: at the start, and at a time event that changes something. No clock is read here: who keeps time with one is
-fairlead/pacing.py.
+Each is an overrun, counted once a step. Settled is in full: at the start, and at a time event that changes something.
+No clock is read here: who keeps time with one is fairlead/pacing.py.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from fairlead.integrate.codes import CAPPED, CYCLES, DIVERGES, DONE, EVEN, REPEA
 from fairlead.integrate.events.pace import propose
 from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.stepping.step_error import end_is_finite
-from fairlead.integrate.stepping.theta_step import add_quadratures
+from fairlead.integrate.stepping.theta_step import add_quadratures, give_back_zones, take_theta_step
 
 MOST_HALVINGS = 3
 """Halvings of a step that has no end to go on with."""
@@ -54,21 +54,34 @@ def whole_frame(run, h):
 
 
 @compiled
-def end_in_time(m, status):
-    """What a trial step comes to: one that is not solved ends with what it has, where that is a number."""
+def end_in_time(m, h, status):
+    """What a trial step comes to: one that is not solved in time ends otherwise, where that end is a number."""
     point, rule, guards = m.point, m.stepping.rule, m.events.guards
     rule.trying = 1
     if status not in (CAPPED, DIVERGES, CYCLES):
         return status
-    if not end_is_finite(point):
-        return DIVERGES
     if guards.n_fired > 0:
         note_overrun(point, rule, UNSETTLED, indices(guards.at_fired, guards.n_guards)[0])
+        status = keep_zones(m, h)
+        if status not in (CAPPED, DIVERGES):
+            return status
     else:
         note_overrun(point, rule, UNSOLVED, point.worst)
-    guards.n_fired = 0
-    add_quadratures(m.problem, point, rule, m.run.h)
+    if not end_is_finite(point):
+        return DIVERGES
+    add_quadratures(m.problem, point, rule, h)
     return DONE
+
+
+@compiled
+def keep_zones(m, h):
+    """Take the step in the zones of its start, implicit (theta = 1): those that were met on the way lead anywhere."""
+    rule = m.stepping.rule
+    give_back_zones(m.events.guards, m.stepping)
+    rule.theta_now, rule.frozen = 1.0, 1
+    status = take_theta_step(m, h)
+    rule.frozen = 0
+    return status
 
 
 @compiled

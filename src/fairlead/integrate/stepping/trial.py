@@ -85,7 +85,7 @@ def attempt_stepping(m):
     run.h = h
     status = take_theta_step(m, h)
     if rule.most_solves > 0:
-        status = end_in_time(m, status)
+        status = end_in_time(m, h, status)
     if status == INACCURATE:
         return halve_or_replan(m, h)
     rule.replanned = 0
