@@ -18,11 +18,12 @@ STEPS = ("10 ms", "1 ms", "0.1 ms")
 MODELS: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "belt": ("block.x", {"run.stop": "10 s"}),
     "block_and_spring": ("block.x", {}),
+    "block_and_spring, hold": ("block.x", {"method": "hold"}),
     "winch_drive": ("line.v", {}),
     "hundred_blocks": ("rod.block[*].x", {}),
     "capstan": ("rope.node[*].x", {}),
 }
-"""Signals that are compared, and settings of the scene."""
+"""By model, and what was changed of it: signals that are compared, and settings."""
 GRID = 0.01
 """s, of the times at which they are compared."""
 
@@ -38,7 +39,7 @@ def main() -> None:
 def rows(name: str) -> Iterator[list[str]]:
     """The rows of a model."""
     signals, settings = MODELS[name]
-    model = fairlead.load(name, {**settings, "record.every": f"{GRID} s"})
+    model = fairlead.load(name.partition(",")[0], {**settings, "record.every": f"{GRID} s"})
     exact = model.run(out=None, engine="rodas", accuracy=1e-8)
     for step in STEPS:
         made = model.run(out=None, real_time=step)

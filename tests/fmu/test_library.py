@@ -16,6 +16,23 @@ from fairlead.outer import Variable
 from tests.fmu.exported import HERE, PATIENCE, PUSHED, in_group, model, needs_compiler
 from tests.unit.test_docs import blocks, files
 
+FRAMES = """
+#include "pushed.h"
+#include <stdio.h>
+int main(void) {
+    pushed *run = pushed_new();
+    double speed;
+    for (int k = 1; k <= 20; k++) {
+        if (k == 8) pushed_set(run, 0, 9.0);
+        if (pushed_advance(run, k * 0.01, 0, NULL) || pushed_get(run, 0, &speed)) puts(pushed_message(run));
+        printf("%a\\n", speed);
+    }
+    printf("%lld\\n", pushed_overruns(run));
+    pushed_free(run);
+    return 0;
+}
+"""
+
 STRICT = ("-Wall", "-Wextra", "-Werror", "-pedantic")
 
 
@@ -178,3 +195,21 @@ def test_two_libraries_of_a_model_have_the_same_bytes(pushed, tmp_path):
     again = export_library(model(tmp_path, "pushed", PUSHED), tmp_path / "again")
     for file in sorted(pushed.iterdir()):
         assert (again / file.name).read_bytes() == file.read_bytes()
+
+
+@pytest.mark.slow
+def test_a_library_made_for_real_time_takes_the_steps_that_advance_takes(tmp_path):
+    """Frames of 7 ms, divided by the ends of the calls."""
+    needs_compiler()
+    scene = model(tmp_path, "pushed", PUSHED)
+    folder = export_library(scene, tmp_path / "pushed", engine="auto", real_time="7 ms")
+    (folder / "frames.c").write_text(FRAMES)
+    *speeds, overruns = in_group([built(folder, folder / "frames.c", "pushed")], env={}).split()
+    run, own = scene.start(engine="auto", real_time="7 ms"), []
+    for k in range(1, 21):
+        if k == 8:
+            run.set("pull", 9.0)
+        run.advance(k * 0.01)
+        own.append(run.get("speed"))
+    assert [float.fromhex(one) for one in speeds] == own
+    assert int(overruns) == run.overruns == 0

@@ -15,7 +15,7 @@ OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
     "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "dwell_given",
     "step_floor_given",
-    "least_theta", "fixed_step",
+    "least_theta", "fixed_step", "most_solves", "solves_had",
 }  # fmt: skip
 OF_THE_PLACE = {"restrict_at", "is_part", "boundary_switched", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
