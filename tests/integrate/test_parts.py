@@ -15,7 +15,7 @@ OF_THE_RUN = {
     "row_capacity", "event_capacity", "max_steps", "max_events", "adaptive", "on_grid", "between", "on_chatter",
     "start", "stop", "every", "max_step", "first_step", "step_floor", "progress_floor", "dwell", "dwell_given",
     "step_floor_given",
-    "least_theta", "fixed_step", "most_solves", "solves_had",
+    "least_theta", "fixed_step", "most_solves",
 }  # fmt: skip
 OF_THE_PLACE = {"restrict_at", "is_part", "boundary_switched", "rows", "events"}
 """Set by parts.py itself, or emptied before."""
@@ -29,7 +29,7 @@ OF_A_STEP = {
     "reduced_kind", "reduced_valid", "reduced_scale", "factored_h", "factored_theta", "mass_factor", "zones_differ",
     "rows_alone", "assumed", "invalidated",
     "captured_by_row", "time_dependent_limits", "inside", "inside_next", "any_stiff", "shown_apart", "moved",
-    "searched", "frozen", "instant", "midway", "replanned", "theta_now",
+    "searched", "frozen", "instant", "midway", "replanned", "theta_now", "solves_had",
 }  # fmt: skip
 """Evaluations and factors: what is not carried is evaluated again."""
 

@@ -87,7 +87,11 @@ def run(
         if not (quiet or as_json):
             seen = Growing(model, out or pathlib.Path("results") / model.netlist.name, LARGE, progress)
             seen.before()
-        result = model._run(out or Place.RESULTS, force, seen, profile, False, {}, "run", _pacer(model, real_time))
+        place = out or Place.RESULTS
+        if real_time is None:
+            result = model.run(out=place, force=force, progress=seen, profile=profile, check=False)
+        else:
+            result = model._run(place, force, seen, profile, False, {}, "run", _pacer(model))
     cut_short = bool(result.run.get("routes")) and _interrupted(lambda: _compare_with_statics(model, result))
     if not as_json:  # the run is whole, and its summary waits for no figure
         _tell(result, quiet=quiet, profile=profile)
@@ -113,10 +117,8 @@ def _step_of_clock(real_time: str | None, settings: list[str]) -> dict[str, str]
     return {"run.real_time": Setting(with_space(real_time), Location("--real-time"))}
 
 
-def _pacer(model: "Model", real_time: str | None) -> "Pacer | None":
-    """Who keeps time with the clock, if that is asked for."""
-    if real_time is None:
-        return None
+def _pacer(model: "Model") -> "Pacer":
+    """Who keeps time with the clock."""
     from fairlead.pacing import Pacer
 
     step = model.netlist.run.real_time
