@@ -52,7 +52,7 @@ def run(
         typer.Option(
             "--real-time",
             metavar="STEP",
-            help="Steps of this length, such as 1ms, each when the clock is due. Without it: --set run.real_time=1ms.",
+            help="Steps of this length, such as 1ms, each when the clock is due. run.real_time: without clock.",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the results of a finished run.")] = False,
