@@ -63,7 +63,7 @@ GROWTH_SEEN = 1e-2
 MET_AGAIN = 20
 """Times a stop that moves as given is kept as it is for a dwell, since it was met and left faster than that, until the
 run ends: positions off by its error cross the stop without end."""
-RESOLVED = 100 * float(np.finfo(np.float64).eps)
+LEAST_WEIGHT = 100 * float(np.finfo(np.float64).eps)
 """A weight given to IDA over its value, at least. Below `eps` IDA refuses (IDA_TOO_MUCH_ACC), however short the step,
 and near that its error is rounding. Energies and positions have absolute weights: at accuracy 1e-6, 1e8 J or 1000 km
 are there."""
@@ -220,7 +220,7 @@ class Weights:
     def at(self, y: Floats) -> Floats:
         """Weights [n] at y."""
         size = np.abs(y)
-        return np.maximum(np.minimum(self.absolute + self.relative * size, self.cap), RESOLVED / self.share * size)
+        return np.maximum(np.minimum(self.absolute + self.relative * size, self.cap), LEAST_WEIGHT / self.share * size)
 
     def freeze(self, y: Floats) -> tuple[float, Floats]:
         """The relative and the absolute tolerances to start IDA with at y."""
