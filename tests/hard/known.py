@@ -16,6 +16,7 @@ LEDGER = "the energy of contacts that creep or bend is missing by more than ten 
 SLOW = "ida: takes 27 of its 30 s"
 BRIEF = "ida: bounces of less than a millimetre a second end early: its step sees neither their dip nor their return"
 CREEPS = "a row inside a step shows a contact that creeps at its limit 1.03e-5 above it at 1e-5; 1e-5 is allowed"
+TOUCHED = "stepping: a contact that begins to creep beside one that does is shown 4e-5 above its limit at that instant"
 ASIDE = "ida: a body that is put back to what moves as given is not in its history; it ends and names rodas"
 ROUTE = "stepping: 1.4e-3 of the energy of one short route is missing where 1e-3 is allowed; the run remarks it"
 QUADRATURES = "1.1e-5 of the energy is missing where 1e-5 is allowed, since steps may miss that much together"
@@ -26,6 +27,7 @@ KNOWN: tuple[tuple[str, str, str, str], ...] = (
     ("row of blocks pulled from both ends, ?00", "ida", "hold", LEDGER),
     ("ball that bounces until it lies, nine tenths", "ida", "none", BRIEF),
     ("block on a shaken table, carried", "rodas3p", "binding", QUADRATURES),
+    ("random networks, 20*", "stepping", "binding", TOUCHED),
     ("random networks, 200", "rodas", "binding", CREEPS),
     ("random routes, 10", "stepping", "hold", ROUTE),
     ("body that a shaking plate throws, 8 Hz", "ida", "none", ASIDE),
@@ -41,9 +43,8 @@ LEFT: tuple[tuple[str, str, str, str], ...] = (
 
 
 MENDED: tuple[tuple[str, str, str], ...] = (
-    ("random networks, 20", "stepping", "binding"),
     ("random networks, 200", "rodas", "hold"),
-    ("random networks, 200", "stepping", "*"),
+    ("random networks, 200", "stepping", "[hl]*"),
     ("block on a shaken table, carried", "stepping", "lugre"),
 )
 """Rows, as patterns, that docs/stability.md shows as failing at its commit, and that come through; none once it is made

@@ -76,13 +76,6 @@ class Facts(Protocol):
         """
 
     @property
-    def speed_readers(self) -> tuple[Integers, Integers, Floats]:
-        """Guards in m/s or rad/s, a speed (unknown) that their part reads, and its coefficient there; [k] each.
-
-        Their rounding follows from these (violators.py).
-        """
-
-    @property
     def met_guard(self) -> Integers:
         """Guards of places at which a stop is met that takes any impulse: known to rounding (violators.py)."""
 
@@ -266,11 +259,6 @@ class Plain:
     def latch_guard(self) -> Integers:
         """None is known to."""
         return np.zeros(len(self.guard_machine), dtype=np.int64)
-
-    @property
-    def speed_readers(self) -> tuple[Integers, Integers, Floats]:
-        """None is known."""
-        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0)
 
     @property
     def met_guard(self) -> Integers:

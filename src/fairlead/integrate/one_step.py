@@ -124,7 +124,7 @@ def up_to_crossing(m, h):
     """Accept a step whose error is small enough, up to its first crossing; or give it up for what that shows."""
     problem, run, guards, recorder = m.problem, m.run, m.events.guards, m.recorder
     found = find_first_crossing(m, h)
-    if run.judged == 1 and turns_at_limit(run, m.point, guards, h):
+    if problem.n_balanced > 0 and run.judged == 1 and turns_at_limit(run, m.point, guards, h):
         return take_much_shorter(run, guards, h)
     if found == INCONSISTENT_START:
         return settle_inconsistent_start(m, h)
@@ -208,9 +208,8 @@ def limits_are_rough(problem, point, guards):
 def turns_at_limit(run, point, guards, h):
     """True if guards fired that were at their limits where zones were settled, and all are below at the end.
 
-    The load of a spring that turns in the hand at the limit of its contact leaves it with no slope, as the slip of a
-    contact does that has just let go, and the interpolant of a long step is rougher than that. Of a shorter one it is
-    not: both go with the square of the step.
+    The load of a spring that turns in the hand at the limit of its contact leaves it with no slope, and the interpolant
+    of a long step is rougher than that. Of a shorter one it is not: the load goes with the square of the step.
     """
     ng = guards.n_guards
     g, end, tolerance = reals(guards.at_g, ng), reals(guards.at_g_end, ng), reals(guards.at_guard_tolerance, ng)

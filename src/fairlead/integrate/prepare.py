@@ -69,7 +69,6 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_accelerated": int(np.count_nonzero(problem.moves[:, 2] >= 0)), "n_met_guards": len(problem.met_guard),
         "n_balanced": len(problem.balanced), "n_light": len(light),
         "n_swings": problem.n_swings, "n_pressing": len(problem.pressing), "n_least": int(np.sum(problem.least_guard)),
-        "n_speeds_read": len(problem.speed_readers[0]),
     }  # fmt: skip
     lengths = plan.lengths | {
         "n": n, "n_guards": ng, "n_machines": nz, "n_jacobian": len(problem.pattern.rows),
@@ -77,7 +76,6 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "n_moves": len(problem.moves), "n_balanced": len(problem.balanced), "n_light": len(light),
         "n_met_guards": len(problem.met_guard), "n_swings": problem.n_swings, "n_pressing": len(problem.pressing),
         "pressing_square": len(problem.pressing) ** 2,
-        "n_speeds_read": len(problem.speed_readers[0]),
         "three_n": 3 * n, "n_plus_1": n + 1, "n_machines_plus_1": nz + 1,
         "most_perturbed": most_perturbed, "perturbed_square": most_perturbed**2,
         "perturbed_reduced": most_perturbed * plan.lengths["n_reduced"],
@@ -91,7 +89,6 @@ def new_plan(problem: Problem, contacts: bool) -> Planned:
         "blow_guard": np.asarray(problem.blow_guard, np.int64),
         "least_guard": np.asarray(problem.least_guard, np.int64),
         "latch_guard": np.asarray(problem.latch_guard, np.int64),
-        **dict(zip(("speed_reader", "speed_read", "speed_ratio"), problem.speed_readers, strict=True)),
         "may_hold": _of_contacts(problem), "met_guard": np.asarray(problem.met_guard, np.int64),
         "limit_guard": np.asarray(problem.limit_guard, np.int64), "bounded_row": bounded_rows(problem),
         "takes_impulse": np.asarray(problem.takes_impulse, np.int64),

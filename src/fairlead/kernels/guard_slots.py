@@ -1,9 +1,6 @@
 """Which guards of a class share a slot: those that bound a held force, those that lead on in a table, and others.
 
-Each of one unit, since a slot has one tolerance: a slip that shared that of a force was known to 1e-8 m/s, of which a
-contact that creeps made 2e-4 of its limit.
-
-A slot has one inertia and one role for all zones of its class. The force of a contact is looked ahead
+A slot has one tolerance, one inertia and one role for all zones of its class. The force of a contact is looked ahead
 for by half the time that a slip is (settling.py) and taken from the equations at an instant (arrival.py); a slot that
 is a bound on a force in one zone and a slip in another would be read as a slip in both. A guard that leads to the next
 piece of a table is asked at other speeds in an impact (impulse_zones.py). So zones leave slots out.
@@ -18,8 +15,8 @@ import sympy
 from fairlead.component.trace import Traced, TracedGuard, TracedZone
 from fairlead.kernels import layout
 
-Role = tuple[bool, bool, str]
-"""Whether a guard bounds a force that holds, whether it leads to the next piece of a table, and its unit."""
+Role = tuple[bool, bool]
+"""Whether a guard bounds a force that holds, and whether it leads to the next piece of a table."""
 
 
 def bounds_what_holds(guard: TracedGuard, zone: TracedZone) -> bool:
@@ -50,9 +47,9 @@ def in_slots(traced: Traced) -> Traced:
 def _placed(name: str, zone: TracedZone, roles: list[Role]) -> TracedZone:
     placed: list[TracedGuard] = []
     for guard in zone.guards:
-        role = bounds_what_holds(guard, zone), guard.step != 0, guard.unit
+        role = bounds_what_holds(guard, zone), guard.step != 0
         while len(placed) < len(roles) and roles[len(placed)] != role:
-            placed.append(TracedGuard("", name, roles[len(placed)][2], [sympy.Float(layout.NOT_IN_FORCE)]))
+            placed.append(TracedGuard("", name, guard.unit, [sympy.Float(layout.NOT_IN_FORCE)]))
         roles += [role] * (len(placed) == len(roles))
         placed.append(guard)
     return replace(zone, guards=placed)

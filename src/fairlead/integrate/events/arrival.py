@@ -162,44 +162,32 @@ def remember_shown(point, recorder, at_shown):
 def as_shown(m, at_y, before):
     """Address of y as it is recorded at an event, `before` its switches or after them.
 
-    Speeds that follow a stiff law are shown where they balance (`balances_here`), behind the event only if before it.
-    What has no inertia is in balance after a settlement; before, it is shown as the end of the piece is.
+    Speeds that follow a stiff law are shown where they balance, but never so that a guard rises by it, nor off the one
+    that fired. What has no inertia is in balance after a settlement; before, it is shown as the end of the piece is.
     """
-    point, recorder = m.point, m.recorder
+    point, guards, recorder = m.point, m.events.guards, m.recorder
     if recorder.shown_apart == 0:
         return at_y
     n = point.n
     y, shown, apart = reals(at_y, n), reals(point.at_y_probe, n), reals(recorder.at_apart, n)
     piece, stiff = reals(point.at_y_piece, n), indices(recorder.at_is_stiff, n)
     differential = indices(point.at_differential, n)
-    if not balances_here(m, at_y):
-        for k in range(n):
-            apart[k] = 0.0 if differential[k] == 1 else apart[k]
-    for k in range(n):
-        shown[k] = y[k] + apart[k] if differential[k] == 1 else y[k]
-        if differential[k] == 0 and stiff[k] == 1 and before:
-            shown[k] = piece[k] + apart[k]
-    return point.at_y_probe
-
-
-@compiled
-def balances_here(m, at_y):
-    """True unless speeds shown where they balance would have a guard rise, or move the one that fired."""
-    point, guards = m.point, m.events.guards
-    n, ng = point.n, guards.n_guards
-    y, shown, apart = reals(at_y, n), reals(point.at_y_probe, n), reals(m.recorder.at_apart, n)
-    differential = indices(point.at_differential, n)
     for k in range(n):
         shown[k] = y[k] + apart[k] if differential[k] == 1 else y[k]
     evaluate_guards(m.problem, m.run, guards, point.t, point.at_y_probe, guards.at_g_probe)
-    g, tolerance = reals(guards.at_g_probe, ng), reals(guards.at_guard_tolerance, ng)
-    stays = True
-    for i in range(ng):
-        stays = stays and g[i] <= tolerance[i]
-    fired = indices(guards.at_fired, ng)
+    g, tolerance = reals(guards.at_g_probe, guards.n_guards), reals(guards.at_guard_tolerance, guards.n_guards)
+    rises = False
+    for i in range(guards.n_guards):
+        rises = rises or g[i] > tolerance[i]
+    fired = indices(guards.at_fired, guards.n_guards)
     for k in range(guards.n_fired):
-        stays = stays and abs(g[fired[k]]) <= tolerance[fired[k]]
-    return stays
+        rises = rises or abs(g[fired[k]]) > tolerance[fired[k]]
+    for k in range(n):
+        if differential[k] == 0 and stiff[k] == 1 and before:
+            shown[k] = piece[k] + apart[k]
+        elif rises:
+            shown[k] = y[k]
+    return point.at_y_probe
 
 
 @compiled

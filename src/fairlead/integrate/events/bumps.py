@@ -22,7 +22,7 @@ from math import inf, sqrt
 
 from fairlead.integrate.events.guards import guards_at
 from fairlead.integrate.events.limits import AT_LIMIT
-from fairlead.integrate.events.violators import look_ahead
+from fairlead.integrate.events.violators import RISE, look_ahead
 from fairlead.integrate.memory.foreign import compiled, copy, indices, reals
 
 NEAR = 2.0**-10
@@ -52,7 +52,6 @@ def find_earliest_bump(m, h):
     end = reals(guards.at_g_end, ng)
     g, early, late = reals(guards.at_g, ng), reals(guards.at_g_early, ng), reals(guards.at_g_late, ng)
     tolerance, later = reals(guards.at_guard_tolerance, ng), reals(guards.at_g_later, ng)
-    least = reals(guards.at_least_rise, ng)
     below = False
     for i in range(ng):
         below = below or (g[i] <= AT_LIMIT * tolerance[i] and end[i] < 0.0)
@@ -71,7 +70,7 @@ def find_earliest_bump(m, h):
                     look_ahead(m.problem, run, m.point, m.events)
                     copy(reals(guards.at_g_probe, ng), later)
                     looked = True
-                if g[i] - later[i] > least[i]:
+                if g[i] - later[i] > RISE * tolerance[i]:
                     continue
             top, height = hermite_top(g[i], end[i], rise, fall)
             if 0.0 < top < 1.0 and height + UNSEEN_BUMP * (height - higher_end) >= 0.0:

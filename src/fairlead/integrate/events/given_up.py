@@ -2,9 +2,9 @@
 
 Inconsistent start. A guard above its tolerance at the end of a step that never was below zero was not passed over: the
 zones at the start were wrong, so the start is settled, by what its guards are there. Where it was settled already and
-no such guard rises by the slopes there, the step is too long, or too rough at its start, and a much shorter one is
-tried. So it is with a slip that has just begun, too little to be seen to rise, and that is over long before the step
-is; and with a body that begins to leave a stop by t^3, which the interpolant of a long step has enter it.
+all such guards fall by the slopes there, the step is too rough at its start, and a much shorter one is tried. So it is
+where one neither falls nor rises by them, but is below zero at the end: the interpolant of a long step has a body that
+begins to leave a stop by t^3 enter it by more than a guard of places is known to.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from fairlead.integrate.codes import BEFORE, GO_ON, SETTLE
 from fairlead.integrate.events.pace import DOUBT
 from fairlead.integrate.events.release import remember
 from fairlead.integrate.events.settling import begin_settling
-from fairlead.integrate.events.violators import none_rises_from_start
+from fairlead.integrate.events.violators import fall_from_start
 from fairlead.integrate.memory.foreign import compiled
 from fairlead.integrate.point.controller import smallest_step
 from fairlead.integrate.record.rows import write_row
@@ -63,5 +63,5 @@ def settle_inconsistent_start(m, h):
 
 @compiled
 def is_doubtful(problem, run, point, events):
-    """True if the start of the step was settled, and none of the guards in `fired` is seen to rise there."""
-    return run.judged == 1 and none_rises_from_start(problem, run, point, events)
+    """True if the start of the step was settled, and by its slopes the guards in `fired` do not rise there."""
+    return run.judged == 1 and fall_from_start(problem, run, point, events)

@@ -17,9 +17,8 @@ from fairlead.integrate.point.controller import weighted_norm
 NUDGE, RISE = 1e-3, 1e-6
 """How far, in weights, the point is moved along y' to see guards rise, and the rise, in guard
 tolerances, that counts: rounding of a guard at rest is far below, the slope of one in motion above."""
-ULPS = 4 * 2.0**-52
-"""What a place or a speed is known to, as a share of itself and of its rate times time, the phase of x(t): four ulps.
-"""
+PLACE_ROUNDING = 4 * 2.0**-52
+"""What a place is known to, as a share of itself and of speed times time, the phase of x(t): four ulps each."""
 SLIP_TIME = 1e-3
 """A slip beyond its tolerance counts as the acceleration that would undo it in this time, s."""
 
@@ -47,10 +46,10 @@ def fire_violators(problem, run, point, events):
             if abs(probe[i] - g[i]) <= known_to:
                 probe[i] = g[i]
     fired, wrong = indices(guards.at_fired, ng), reals(settling.at_wrong, ng)
-    inertia, least = reals(guards.at_guard_inertia, ng), reals(guards.at_least_rise, ng)
+    inertia = reals(guards.at_guard_inertia, ng)
     for i in range(ng):
         close = looks_ahead and -AT_LIMIT * tolerance[i] <= g[i] <= tolerance[i]
-        rises = close and probe[i] >= 0.0 and probe[i] - g[i] > least[i]
+        rises = close and probe[i] >= 0.0 and probe[i] - g[i] > RISE * tolerance[i]
         if g[i] > tolerance[i] or rises:
             wrong[i] = g[i] if g[i] > tolerance[i] else probe[i] - g[i]
             if inertia[i] > 0.0:
@@ -104,7 +103,7 @@ def place_rounding(problem, point):
     position, y, known_to = indices(problem.at_position_of, problem.n), reals(point.at_y, problem.n), 0.0
     for v in range(problem.n):
         if position[v] >= 0:
-            known_to = max(known_to, ULPS * (abs(y[position[v]]) + abs(y[v] * point.t)))
+            known_to = max(known_to, PLACE_ROUNDING * (abs(y[position[v]]) + abs(y[v] * point.t)))
     return known_to
 
 
@@ -116,10 +115,8 @@ def look_ahead(problem, run, point, events):
     below it, must not each send to the other. The slip of the one after a time d is the mean over that time of what
     the other's load is beyond its limit; so guards of slips are taken at d, all others at d/2. And d is the same for
     all zones of a settlement. Where no guard is known for a slip, forces alone are taken at d/2.
-    Into `least_rise` goes what each must rise by to be seen to rise.
     """
     guards, settling = events.guards, events.settling
-    find_least_rises(guards, point)
     if settling.lookahead == 0.0:
         settling.lookahead = max(distance_of_lookahead(run, point), settling.least_lookahead)
     if problem.weighs_guards == 0:
@@ -135,24 +132,6 @@ def look_ahead(problem, run, point, events):
     for i in range(problem.n_guards):
         if inertia[i] > 0.0:
             probe[i] = late[i]
-
-
-@compiled
-def find_least_rises(guards, point):
-    """A guard rises that does so by RISE of its tolerance, and by more than the speeds are known to that it reads.
-
-    The slip of a contact that has just let go grows by 1e-17 m/s in the time that is looked ahead for, and is the
-    difference of speeds that are known to 1e-16 m/s: whether it goes forward or backward then only a step can tell.
-    """
-    n, ng, k_n = point.n, guards.n_guards, guards.n_speeds_read
-    least, tolerance = reals(guards.at_least_rise, ng), reals(guards.at_guard_tolerance, ng)
-    y, slope, ratio = reals(point.at_y, n), reals(point.at_slope, n), reals(guards.at_speed_ratio, k_n)
-    reader, speed = indices(guards.at_speed_reader, k_n), indices(guards.at_speed_read, k_n)
-    for i in range(ng):
-        least[i] = RISE * tolerance[i]
-    for k in range(k_n):
-        i, v = reader[k], speed[k]
-        least[i] = max(least[i], ULPS * ratio[k] * (abs(y[v]) + abs(slope[v] * point.t)))
 
 
 @compiled
@@ -192,19 +171,17 @@ def distance_of_lookahead(run, point):
 
 
 @compiled
-def none_rises_from_start(problem, run, point, events):
-    """True if no guard in `fired` is seen to rise along (y', y'') from the point, as it was settled.
+def fall_from_start(problem, run, point, events):
+    """True if every guard in `fired` decreases along (y', y'') from the point, as it was settled.
 
-    It falls, or neither does nor could be seen to since it is a difference of speeds; of others that one neither falls
-    nor rises tells only where it is below zero at the end of the step: it falls by its third derivative then.
+    Or does not rise there, and is below zero at the end of the step: it decreases by its third derivative.
     """
     guards, ng = events.guards, events.guards.n_guards
     look_ahead(problem, run, point, events)
     g, probe, end = reals(guards.at_g, ng), reals(guards.at_g_probe, ng), reals(guards.at_g_end, ng)
-    tolerance, least = reals(guards.at_guard_tolerance, ng), reals(guards.at_least_rise, ng)
-    fired, none = indices(guards.at_fired, ng), True
+    tolerance, fired = reals(guards.at_guard_tolerance, ng), indices(guards.at_fired, ng)
+    falling = True
     for k in range(guards.n_fired):
-        i = fired[k]
-        change, hidden = probe[i] - g[i], least[i] > RISE * tolerance[i]
-        none = none and (change < -least[i] or (change <= least[i] and (hidden or end[i] < 0.0)))
-    return none
+        change, seen = probe[fired[k]] - g[fired[k]], RISE * tolerance[fired[k]]
+        falling = falling and (change < -seen or (change <= seen and end[fired[k]] < 0.0))
+    return falling

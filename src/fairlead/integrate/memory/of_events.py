@@ -8,7 +8,6 @@ GUARDS = Struct(
     copies=("n_guards", "guard_machine", "limit_guard",),
     integers=(
         "n_fired",  # how many guards `fired` lists
-        "n_speeds_read",  # how many pairs there are of a guard in m/s or rad/s and a speed that its part reads
     ),
     reals={
         "g": "n_guards",  # at the point
@@ -21,8 +20,6 @@ GUARDS = Struct(
         "g_later": "n_guards",  # a little later than the point
         "g_since": "n_guards",  # the place s from which on they count
         "guard_tolerance": "n_guards",
-        "least_rise": "n_guards",  # by which a guard is seen to rise (violators.py)
-        "speed_ratio": "n_speeds_read",  # how much of that speed is read, without sign
         "guard_inertia": "n_guards",  # of slips of contacts that may hold: what resists their force; 0 of others
         "blocked_until": "n_machines",  # the time until which a machine keeps its zone (chatter.py)
         # guards whose tops are looked for (bumps.py): by the number of the search, two places with a top in between,
@@ -34,7 +31,6 @@ GUARDS = Struct(
     indices={
         "fired": "n_guards",  # numbers of the guards that fired, or that are asked for
         "bump_guard": "n_guards", "bump_places": "n_guards",  # which guard it is, and at how many places it was asked
-        "speed_reader": "n_speeds_read", "speed_read": "n_speeds_read",  # the guard, and the speed, of each such pair
         "in_corner": "n_guards",  # 1: it touches zero where a force that presses passes through zero (corners.py)
     },
 )  # fmt: skip

@@ -15,11 +15,9 @@ from fairlead.component.keys import PORT, key
 from fairlead.flatten.flat_model import FlatModel
 from fairlead.kernels import layout
 from fairlead.kernels.structure import Structure
-from fairlead.system.arrays.blocks import Block, Floats, Integers, Memory
+from fairlead.system.arrays.blocks import Block, Integers, Memory
 from fairlead.system.arrays.timing import tables
-from fairlead.system.numbering.unknowns import Numbering
 
-SPEEDS = ("m/s", "rad/s")
 NO_GUARD = (0, 0, 0)
 Named = tuple[str, str]  # name and unit
 
@@ -165,24 +163,6 @@ def met_slots(s: Structure) -> set[int]:
     rigid = {s.zones.index(zone) for unknown in s.rigid for zone in s.holds[unknown]}
     known = [pair for of_zone in s.guards.values() for pair in enumerate(of_zone)]
     return {slot for slot, guard in known if guard["to"] in rigid and guard["unit"] in ("m", "rad")}
-
-
-def speed_readers(blocks: Sequence[Block], numbering: Numbering) -> tuple[Integers, Integers, Floats]:
-    """Guards in m/s or rad/s, the speeds (unknowns) that their part reads, and how much of each; [k] each."""
-    is_speed = np.zeros(numbering.dump + 1 + numbering.resting, dtype=bool)
-    is_speed[list(numbering.rate.values())] = True
-    found, first = [np.zeros((0, 2), dtype=np.int64)], 0
-    ratios = [np.zeros(0)]
-    for block in blocks:
-        slots = _sharing(block)
-        for k, slot in enumerate(slots):
-            if any(guard["unit"] in SPEEDS for guard in slot):
-                i, j = np.nonzero(is_speed[block.in_index])
-                found.append(np.stack([first + i * len(slots) + k, block.in_index[i, j]], axis=1))
-                ratios.append(np.abs(block.in_coef[i, j]))
-        first += len(slots) * block.count
-    pairs = np.concatenate(found)
-    return np.ascontiguousarray(pairs[:, 0]), np.ascontiguousarray(pairs[:, 1]), np.concatenate(ratios)
 
 
 def kinks(blocks: Sequence[Block]) -> Integers:

@@ -32,11 +32,11 @@ from fairlead.kernels import layout
 from fairlead.kernels.layout import AT_REST, DRIVEN, FREE
 from fairlead.system.arrays.blocks import Block, Floats, Memory
 from fairlead.system.arrays.portions import Portion
-from fairlead.system.arrays.switching import SPEEDS
 from fairlead.system.assembly.program import Entries
 from fairlead.system.numbering.contact_cycles import REST, ends, moved_apart
 from fairlead.system.numbering.unknowns import Numbering
 
+SPEEDS = ("m/s", "rad/s")
 Stops = dict[str, list[int]]  # zone -> guards, by slot, on the slip that lead into a zone that holds
 
 

@@ -85,7 +85,6 @@ class System:
     holder: Integers  # [n]: the machine whose zone decides whether a row holds, or -1
     takes_impulse: Integers  # [n]: 0 it never holds, 1 no impulse but rounding, 2 any, 3 any of a relation of positions
     pressing: Integers  # [k, 2]: rows whose force other laws read, with the sign of its answer to a push
-    speed_readers: tuple[Integers, Integers, Floats]  # guards in m/s or rad/s, speeds they read, by how much
     met_guard: Integers  # [k]: guards of places at which a stop is met
     limit_guard: Integers  # [ng]: 1 if it bounds the force of its own contact while that holds
     blow_guard: Integers  # [ng]: 1 if an impulse asks it with the speeds before
