@@ -47,6 +47,7 @@ def test_what_will_be_large_is_told_before_the_run_where_a_grid_says_it_and_earl
     assert "record.every is 0.001 s" in first
     monkeypatch.setattr("fairlead.cli.run.LARGE", 1e4)
     monkeypatch.setattr("fairlead.cli.growing.EARLY", 1e-9)
+    monkeypatch.setattr("fairlead.results.recorder.FIRST_FLUSH", 0.0)  # of a run that takes longer than that
     every = [*words, "--set", "run.stop=2000 s", "--set", "record.every=null"]
     told = CliRunner().invoke(app, every)
     said = [line for line in told.stderr.splitlines() if "will take about" in line]
