@@ -45,7 +45,7 @@ def test_what_will_be_large_is_told_before_the_run_where_a_grid_says_it_and_earl
     rows, signals = re.search(r"\((\d+) rows of (\d+) signals", first).groups()
     assert 8 * int(rows) * (int(signals) + 1) == pytest.approx(size, rel=0.2)
     assert "record.every is 0.001 s" in first
-    monkeypatch.setattr("fairlead.cli.run.LARGE", 1e4)
+    monkeypatch.setattr("fairlead.cli.run.LARGE", 1e6)
     monkeypatch.setattr("fairlead.cli.growing.EARLY", 1e-9)
     monkeypatch.setattr("fairlead.results.recorder.FIRST_FLUSH", 0.0)  # of a run that takes longer than that
     every = [*words, "--set", "run.stop=2000 s", "--set", "record.every=null"]

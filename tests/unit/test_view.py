@@ -28,14 +28,14 @@ WRONG = BELT.replace("stiffness: 100 N/m", "stifness: 100 N/m")
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("view")
+    made = tmp_path_factory.mktemp("view")
+    (made / "belt.yaml").write_text(BELT, encoding="utf-8")
+    return made
 
 
 @pytest.fixture(scope="module")
 def view(folder: Path):
-    file = folder / "belt.yaml"
-    file.write_text(BELT, encoding="utf-8")
-    made = View(str(file))
+    made = View(str(folder / "belt.yaml"))
     threading.Thread(target=made._server.serve_forever, kwargs={"poll_interval": 0.05}, daemon=True).start()
     yield made
     made._server.shutdown()
