@@ -83,3 +83,18 @@ def test_it_stays_within_ten_accuracies_of_a_run_that_nobody_cuts(tmp_path, scen
         for step, row in enumerate(rows, 1):
             uncut = result[name][np.abs(result.t - start - h * step) < 1e-6 * h]
             assert np.abs(row[k] - uncut).min() <= ACCURACIES * model.netlist.run.accuracy * largest, (name, step)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize(("scene", "outputs", "h"), [("belt", "block.*", 0.02), ("single_bend", "line.*_node[?].x", 0.005)])
+def test_an_fmu_made_for_real_time_takes_the_steps_that_advance_takes(tmp_path, scene, outputs, h, version):
+    """Communication steps of a whole number of frames, and of none: a point that a master asks for ends a step."""
+    fmpy()
+    needs_compiler()
+    model, every = fairlead.load(scene), {"engine": "auto", "real_time": "1 ms"}
+    file = export(model, tmp_path / "model.fmu", version=version, outputs=[outputs], **every)
+    for step in (h, 0.77 * h):
+        rows, own, names = both(file, tmp_path / f"unpacked_{step}", model, step, 60, **every)
+        assert len(names) > 0
+        assert np.ptp(rows, axis=0).max() > 0
+        assert rows.tobytes() == own.tobytes()

@@ -168,3 +168,37 @@ def test_a_corner_is_where_a_force_that_presses_is_zero_if_a_guard_has_come_to_i
     at.array["g_end"][0] = 1.0
     assert corner(at, 1.0, 1.0) == 1.0  # it is above zero at the end: a crossing, and no corner
     assert kept
+
+
+@pytest.mark.parametrize("after", [0, 1, 3])
+@pytest.mark.parametrize("seed", range(10))
+def test_what_rounding_makes_of_a_third_difference_is_no_error(seed, after):
+    """Values on a straight line, each rounded, in steps of any lengths: nothing of them is left, and the bound is near.
+
+    `after` steps since a settlement: before the first of them there are slopes at a point, which are exact.
+    """
+    rng = np.random.default_rng(seed)
+    n, far = 400, 3e6
+    h = rng.uniform(0.3, 2.0, after + 1) * 1e-6
+    speed = rng.uniform(-1.0, 1.0, n)
+    place = far * rng.uniform(0.5, 1.0, n)
+    slopes, ends = [speed, speed], [place]
+    for length in h:
+        ends.append(ends[-1] + length * speed)
+        slopes.append((ends[-1] - ends[-2]) / length)
+    gaps = [0.0, 0.0, *(0.5 * h[:-1])]
+    at = memory({"n": n, "theta_now": 0.5, "gap": gaps[-1], "gap_before": gaps[-1] + gaps[-2] or 1.0, "locates": 1})
+    arrays = {"y_end": ends[-1], "mean_slope": slopes[-1], "slope_before": slopes[-2], "slope_earlier": slopes[-3],
+              "error_vector": np.full(n, np.nan)}  # fmt: skip
+    for name, values in arrays.items():
+        at.point(name, np.array(values), np.float64)
+    for name, value in {"differential": 1, "controlled": 1, "quadrature": 0}.items():
+        at.point(name, np.full(n, value), np.int64)
+    find = plain_room("stepping.step_error.find_differences", "point", "stepping.rule")
+    find(at, h[-1])
+    assert np.all(at.array["error_vector"] == 0.0)
+    third = h[-1] ** 3 / 6 / (gaps[-1] + 0.5 * h[-1] + at.number["gap_before"])
+    bound = plain_room("stepping.step_error.find_rounding", "stepping.rule")(at, third, 0.0, h[-1]) * far
+    curve = (slopes[-1] - slopes[-2]) / (gaps[-1] + 0.5 * h[-1])
+    before = (slopes[-2] - slopes[-3]) / at.number["gap_before"]
+    assert bound / 40 < np.abs(third * (curve - before)).max() < bound

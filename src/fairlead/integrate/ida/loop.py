@@ -12,7 +12,7 @@ speed. Differences from `rodas`, numbered:
 1. Weights. IDA takes the root mean square over the unknowns; weights are divided by sqrt(n), which makes
    its norm at least the largest weighted error (controller.py, choice 1). It knows absolute_i plus one
    relative part; where unknowns differ in it, or have a cap, weights are frozen at a restart and IDA is
-   restarted when one of them is to become four times smaller.
+   restarted when one of them is to become four times smaller. None is below LEAST_WEIGHT of its value.
 2. Recording inside a step is by the cubic through the values and rates of both ends, which is as exact
    as the method up to its order three.
 3. Quadratures have their weights like all unknowns: IDA leaves uncorrected what weighs nothing, and the

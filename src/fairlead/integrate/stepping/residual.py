@@ -30,6 +30,8 @@ SOLVED = 1e-3
 """A residual below this, each row over its largest entry in error weights, is solved. Errors of iterations add up over
 the steps, so they stay far below one weight: the code RADAU5 takes min(0.03, sqrt(accuracy)), 1e-3 at an accuracy
 of 1e-6 (Hairer and Wanner, Solving ODEs II, section IV.8)."""
+CHANGE_KNOWN = 4 * 2.0**-52
+"""Share of a value to which its change in a step is known: a few ulps, from the solve and the sum that end the step."""
 ARMIJO, LEAST_SHARE = 1e-4, 1e-3
 """Share of the promised fall that is asked for; below the least share of a move the next J has to tell."""
 FALLING = 0.5
@@ -153,8 +155,12 @@ def find_slip_without_mass(problem, point, stepping, h):
 
 
 @compiled
-def scaled_residual(point, linear):
-    """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is."""
+def scaled_residual(point, linear, h):
+    """Largest |b_i| over the largest entry of row i in units of the weights; nan if any is.
+
+    A change is known to the rounding of what it changes: 3000 km in steps of a microsecond to 0.5 mm/s. Of the row of
+    such a position no solve leaves less than that, so what is no more counts as nothing.
+    """
     reduced, factors = linear.reduced, linear.factors
     b, scale = reals(point.at_b, point.n), reals(factors.at_row_scale, point.n)
     quadrature = indices(point.at_quadrature, point.n)
@@ -167,10 +173,18 @@ def scaled_residual(point, linear):
         if not isfinite(size):
             point.worst = i
             return size
-        if quadrature[i] == 0 and size > largest:
+        if quadrature[i] == 0 and size > largest and (size <= SOLVED or not is_rounding(point, linear.matrices, i, h)):
             largest = size
             point.worst = i
     return largest
+
+
+@compiled
+def is_rounding(point, matrices, i, h):
+    """True if the residual of row i is no more than the rounding of M y/h in it."""
+    own, masses = indices(matrices.at_diagonal_mass, point.n), reals(matrices.at_mass, matrices.n_mass)
+    b, y_end = reals(point.at_b, point.n), reals(point.at_y_end, point.n)
+    return own[i] >= 0 and abs(b[i]) * h <= CHANGE_KNOWN * abs(masses[own[i]] * y_end[i])
 
 
 @compiled
@@ -194,7 +208,7 @@ def search_line(problem, point, linear, stepping, h, before):
     """Leave the residual after the last move, of which as much is taken back as raises it above `before`."""
     matrices, rule = linear.matrices, stepping.rule
     find_residual_of_step(problem, point, matrices, stepping, h, True)
-    size, share = scaled_residual(point, linear), 1.0
+    size, share = scaled_residual(point, linear, h), 1.0
     if size <= max(before, SOLVED):
         return
     fresh = rule.searched == SEARCHED
@@ -214,7 +228,7 @@ def search_line(problem, point, linear, stepping, h, before):
         for k in range(point.n):
             y_end[k] -= share * (per_theta * move[k] if differential[k] == 1 else move[k])
         find_residual_of_step(problem, point, matrices, stepping, h, True)
-        size = scaled_residual(point, linear)
+        size = scaled_residual(point, linear, h)
     if fresh and not size <= (1.0 - ARMIJO * share) * before:
         rule.searched = GIVEN_UP
 

@@ -7,6 +7,9 @@
     difference     h^3/6 [k_n, k_n-1, k_n-2] = h^3 y'''/12, the error of the midpoint rule
     the largest    of these differences and of what they do not show
 
+Values are known to a few ulps, so that their differences say nothing below `find_rounding` of these: a position of
+3000 km in steps of a nanosecond has a third difference of rounding alone, and no shorter step makes that less.
+
 The error of the midpoint rule is taken away before (third_order.py): what is controlled is the error of the step
 without that, which is more than what is left of it.
 With a theta above 1/2 nothing is taken away, and the step misses (theta - 1/2) h^2 y'' besides: that comes on top.
@@ -28,6 +31,7 @@ from fairlead.integrate.memory.foreign import compiled, indices, reals
 from fairlead.integrate.point.controller import weigh, weighted_norm
 from fairlead.integrate.stepping.limit_violation import unseen_force, unseen_slip
 from fairlead.integrate.stepping.located_step import add_error_of_forces, error_of_located
+from fairlead.integrate.stepping.residual import CHANGE_KNOWN
 
 NOTHING_MOVES = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the second difference of a holding
@@ -124,11 +128,27 @@ def find_differences(point, rule, h):
     per_near, per_far = 1.0 / near, 1.0 / far
     third = h * h * h / 6.0 / (near + far)
     second = (rule.theta_now - MIDDLE) * h * h
+    known, y_end = find_rounding(rule, third, second, h), reals(point.at_y_end, n)
     for k in range(n):
         curve, curve_before = (slope[k] - before[k]) * per_near, (before[k] - earlier[k]) * per_far
-        missed = abs(third * (curve - curve_before)) + abs(second * curve)
+        missed = max(abs(third * (curve - curve_before)) + abs(second * curve) - known * abs(y_end[k]), 0.0)
         judged = (controlled[k] == 1) | (located & (quadrature[k] == 0))
         error[k] = missed if (differential[k] == 1) & judged else 0.0
+
+
+@compiled
+def find_rounding(rule, third, second, h):
+    """Share of a value that rounding makes of third [k_n, k_n-1, k_n-2] and second [k_n, k_n-1], at most.
+
+    A slope over a step is known to CHANGE_KNOWN of the value over that step; after a settlement there is none before,
+    and after the first step only one: those are slopes at a point.
+    """
+    before, near, far = 2.0 * rule.gap, rule.gap + 0.5 * h, rule.gap_before
+    earlier = 2.0 * far - before
+    slope, slope_before = 1.0 / h, 1.0 / before if before > 0.0 else 0.0
+    slope_earlier = 1.0 / earlier if before > 0.0 and earlier > 0.0 else 0.0
+    curve, curve_before = (slope + slope_before) / near, (slope_before + slope_earlier) / far
+    return CHANGE_KNOWN * (third * (curve + curve_before) + abs(second) * curve)
 
 
 @compiled

@@ -169,9 +169,9 @@ def approach_laws(problem, point, linear, stepping, h, solves, previous):
         find_residual_of_step(problem, point, matrices, stepping, h, solves > 0)
     elif solves == 0:
         find_residual_of_step(problem, point, matrices, stepping, h, False)
-        size = scaled_residual(point, linear)
+        size = scaled_residual(point, linear, h)
     if solves > 0:
-        verdict, size = judge_residual(problem, point, linear, stepping, solves, previous)
+        verdict, size = judge_residual(problem, point, linear, stepping, h, solves, previous)
         if verdict == DONE:
             move_quadratures(point, h)
             if exchange.captured_by_row == 1:
@@ -228,10 +228,10 @@ def switch_zones(m, h):
 
 
 @compiled
-def judge_residual(problem, point, linear, stepping, solves, previous):
+def judge_residual(problem, point, linear, stepping, h, solves, previous):
     """DONE, ONCE_MORE with another solve, or why not; and the size of the residual."""
     rule = stepping.rule
-    size = scaled_residual(point, linear)
+    size = scaled_residual(point, linear, h)
     if not isfinite(size):
         return DIVERGES, size
     if size <= SOLVED:
