@@ -86,7 +86,9 @@ def test_it_stays_within_ten_accuracies_of_a_run_that_nobody_cuts(tmp_path, scen
 
 
 @pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize(("scene", "outputs", "h"), [("belt", "block.*", 0.02), ("single_bend", "line.*_node[?].x", 0.005)])
+@pytest.mark.parametrize(
+    ("scene", "outputs", "h"), [("belt", "block.*", 0.02), ("single_bend", "line.*_node[?].x", 0.005)]
+)
 def test_an_fmu_made_for_real_time_takes_the_steps_that_advance_takes(tmp_path, scene, outputs, h, version):
     """Communication steps of a whole number of frames, and of none: a point that a master asks for ends a step."""
     fmpy()

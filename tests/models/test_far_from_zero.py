@@ -17,7 +17,7 @@ EPS = np.finfo(np.float64).eps
 def test_a_thrown_block_comes_to_rest_anywhere_by_the_closed_form(
     simulate: Callable[..., Any], far: float, accuracy: float, engine: str
 ) -> None:
-    """It slides v^2/(2 a) in v/a: 9 m in 6 s, in as many steps as at zero. A weight is 1e-8 m and less, an ulp to 1e-7."""
+    """It slides v^2/(2 a) in v/a: 9 m in 6 s, in as many steps as at zero. A weight is 1e-8 m or less, an ulp 1e-7."""
 
     def thrown(place: float) -> Any:
         return simulate(
