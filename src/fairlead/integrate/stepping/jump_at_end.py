@@ -177,17 +177,45 @@ def find_means(m, h):
 
 @compiled
 def place_jump(point, guards, contacts, rule, h):
-    """Into `t_cut`: when the first guard in `fired` reaches zero.
-
-    By the line through two middles of steps, or through both ends of this one: where it is read (`find_means`).
-    """
-    fired, is_mean = indices(guards.at_fired, guards.n_guards), indices(contacts.at_is_mean, guards.n_guards)
-    near = rule.gap + 0.5 * h
+    """Into `t_cut`: when the first guard in `fired` reaches zero."""
+    fired = indices(guards.at_fired, guards.n_guards)
     rule.t_cut = point.t + 2.0 * h
     for k in range(guards.n_fired):
-        s = zero_of_guard(guards, fired[k])
-        rule.t_cut = min(rule.t_cut, point.t + (s * near - rule.gap if is_mean[fired[k]] == 1 else s * h))
+        rule.t_cut = min(rule.t_cut, due_at(point, guards, contacts, rule, h, fired[k]))
     rule.t_cut = max(rule.t_cut, point.t)
+
+
+@compiled
+def due_at(point, guards, contacts, rule, h, i):
+    """When guard i reaches zero: where it is read (`find_means`), in the middle of a step or at its end.
+
+    By the line through two middles of steps, or through both ends of this one.
+    """
+    s = zero_of_guard(guards, i)
+    is_mean = indices(contacts.at_is_mean, guards.n_guards)[i]
+    return point.t + (s * (rule.gap + 0.5 * h) - rule.gap if is_mean == 1 else s * h)
+
+
+@compiled
+def keep_due(point, guards, contacts, rule, h, latest):
+    """Leave guards out of `fired` that reach zero after this instant."""
+    fired, count = indices(guards.at_fired, guards.n_guards), 0
+    for k in range(guards.n_fired):
+        if due_at(point, guards, contacts, rule, h, fired[k]) <= latest:
+            fired[count] = fired[k]
+            count += 1
+    guards.n_fired = count
+
+
+@compiled
+def keep_at_limit(guards):
+    """Leave guards out of `fired` that are below zero at the start of the step by more than rounding."""
+    fired, count = indices(guards.at_fired, guards.n_guards), 0
+    for k in range(guards.n_fired):
+        if not is_inside(guards, fired[k]):
+            fired[count] = fired[k]
+            count += 1
+    guards.n_fired = count
 
 
 @compiled

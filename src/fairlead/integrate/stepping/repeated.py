@@ -27,6 +27,7 @@ from fairlead.integrate.memory.foreign import compiled, indices
 from fairlead.integrate.point.controller import smallest_step, step_after_rejection
 from fairlead.integrate.stepping.frames import is_too_late
 from fairlead.integrate.stepping.history import note_rejection
+from fairlead.integrate.stepping.jump_at_end import keep_at_limit, keep_due
 from fairlead.integrate.stepping.passed_over import find_passed_guard
 from fairlead.integrate.stepping.switch_inside import AT_ONCE, find_missed_impulse, latch_switched
 from fairlead.integrate.stepping.theta_step import give_back_zones
@@ -127,8 +128,35 @@ def halve_or_replan(m, h):
 @compiled
 def jump_at_start(run, point, rule):
     """True if a law jumps where the step begins: no step could end there."""
+    return rule.t_cut <= end_of_start(run, point)
+
+
+@compiled
+def end_of_start(run, point):
+    """The instant up to which a jump is one where the step begins."""
     early = min(BEGINNING * (run.stop - run.start), still_for(point))
-    return rule.t_cut - point.t <= max(early, smallest_step(run, point))
+    return point.t + max(early, smallest_step(run, point))
+
+
+@compiled
+def due_at_start(m, h):
+    """True if a law jumps where the step begins; its guards are left in `fired`, without those due later in the step.
+
+    Where zones have switched in the step, its end is that of zones that were given up, and may be anywhere: by such a
+    line a body at 0.05 m/s has come to rest after 1e-8 s. So only what is at its limit at the start is due there, and
+    the step is halved, as long as it is longer than what counts as its start.
+    """
+    run, point, guards, rule = m.run, m.point, m.events.guards, m.stepping.rule
+    if not jump_at_start(run, point, rule):
+        return False
+    if m.events.settling.passes == 0:
+        keep_due(point, guards, m.stepping.contacts, rule, h, end_of_start(run, point))
+        return True
+    if point.t + 0.5 * h <= end_of_start(run, point) or run.adaptive == 0:
+        return True
+    keep_at_limit(guards)
+    rule.t_cut = point.t + 0.5 * h
+    return guards.n_fired > 0
 
 
 @compiled

@@ -48,12 +48,12 @@ from fairlead.integrate.stepping.repeated import (
     THETA_FALL,
     THETA_LEAST,
     blame,
+    due_at_start,
     end_at_switch,
     find_latch_ahead,
     find_switch_passed,
     halve_or_replan,
     halve_unsolved,
-    jump_at_start,
     localise_jump,
     reject_error,
     settle_jump,
@@ -101,7 +101,7 @@ def finish_inside(m, h, status):
     problem, run, point, linear, guards = m.problem, m.run, m.point, m.linear, m.events.guards
     settling, stepping, rule, exchange = m.events.settling, m.stepping, m.stepping.rule, m.stepping.exchange
     if status == JUMPS or (status == DONE and find_due_jump(m, h)):
-        if jump_at_start(run, point, rule):
+        if due_at_start(m, h):
             return settle_jump(m)
         if not localise_jump(point, guards, settling, stepping, h):
             return end_at_switch(run, guards, stepping, min(rule.t_cut - point.t, h), TOO_FAR)
