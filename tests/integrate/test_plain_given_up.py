@@ -193,3 +193,28 @@ def test_a_stop_is_met_if_its_guard_is_among_those_that_fired():
     assert not met(at)
     at.number["n_fired"] = 3
     assert met(at)
+
+
+@pytest.mark.parametrize(("passes", "g", "after", "half", "due"), [
+    (0, [-0.05, -0.05], 1e-8, 0.05, [0]),  # found by the first solve: what falls due there
+    (3, [-0.05, -0.05], 1e-8, 0.05, []),  # after switches its end tells nothing
+    (3, [-0.05, 0.0], 1e-8, 0.05, [1]),  # but what is at its limit from the start
+    (3, [-0.05, -0.05], 1e-8, 0.4e-7, [0, 1]),  # a step that is no longer than its start is not halved
+    (3, [-0.05, -0.05], 1e-3, 0.05, None),
+])  # fmt: skip
+def test_an_end_of_zones_that_were_given_up_tells_no_jump_at_the_start(passes, g, after, half, due):
+    """The first guard passes zero after `after` s by the line to the end, the second after 80 of 100 ms."""
+    h = 2.0 * half
+    at, kept = given_up(passes=passes, n_guards=2, n_fired=2, t_cut=1.0 + after)
+    for name, values, kind in (("g", g, float), ("g_end", [-g[0] * (h / after - 1.0), 0.25 * abs(g[1])], float),
+                               ("guard_tolerance", [1e-9, 1e-9], float), ("is_mean", [0, 0], np.int64),
+                               ("fired", [0, 1], np.int64)):  # fmt: skip
+        at.point(name, np.array(values), kind)
+    at.spread()
+    found = plain_room("stepping.repeated.due_at_start", "")(at, h)
+    assert found == bool(due)
+    if due:
+        assert at.array["fired"][: at.number["n_fired"]].tolist() == due
+    elif due is not None:
+        assert at.number["t_cut"] == pytest.approx(1.0 + half)
+    assert kept
