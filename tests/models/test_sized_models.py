@@ -140,7 +140,7 @@ def test_no_contact_of_the_route_takes_more_than_friction_allows(tmp_path, engin
     scene = tmp_path / "scene.yaml"
     scene.write_text(netlist[: netlist.index("  plots:")].replace("line.core[*].tension", "line.outer[*].friction"))
     model = fairlead.load(scene, set={"effects.core_stretch": "on", "back_tension": back_tension})
-    result = model.run(out=None, engine=engine, stop="30 s")
+    result = model.run(out=None, engine=engine, stop="29.4 s")
     assert result.ok, result.run["sentence"]
     names = [signal.name for signal in result.signals if signal.name.endswith("friction")]
     assert len(names) > 100
