@@ -70,7 +70,7 @@ BENT = '''
             return Law(left=one - other)
 
 
-    class Brake(Component):
+    class Slower(Component):
         """A force by a signal."""
 
         port = Translational("a body")
@@ -93,8 +93,8 @@ SIGNALS = """
       ear_c: {type: Ear}
       first: {type: Less}
       second: {type: Less}
-      brake: {type: Brake}
-      early: {type: Brake}
+      brake: {type: Slower}
+      early: {type: Slower}
     connections:
       - [a.flange, ear_a.port]
       - [b.flange, ear_b.port, early.port]
