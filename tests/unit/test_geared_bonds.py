@@ -18,7 +18,8 @@ CLASSES = '''
         node = Translational("the node")
         rim = Translational("the rim")
         place = Parameter("m", "Where it ends.")
-        gear = Parameter("1", "Speed of the node over that of the rim, for a radius of 1.")
+        gear = Parameter("1", "Speed of the node over that of the rim, for a radius of 1 and one tooth.")
+        teeth = Parameter("1", "What it is divided by.")
         lock = Parameter("N*s/m", "Bond.")
         radius = Input("1", "What the gear is multiplied by.")
         zones = Zones("stored", "free")
@@ -27,8 +28,9 @@ CLASSES = '''
         @zone("stored")
         def on_rim(p, node, rim, radius):
             """As fast as the rim, times the ratio."""
-            force = p.lock * (node.v - p.gear * radius * rim.v)
-            return Law(node=force, rim=-p.gear * radius * force, dissipated=force * (node.v - p.gear * radius * rim.v))
+            slip = node.v - p.gear * radius * rim.v / p.teeth
+            force = p.lock * slip
+            return Law(node=force, rim=-p.gear * radius * force / p.teeth, dissipated=force * slip)
 
         @zone("free")
         def off_rim(p):
@@ -46,6 +48,17 @@ CLASSES = '''
             return p.place - node.x
 
 
+    class Hung(Component):
+        """A constant force."""
+
+        port = Translational("a node")
+        force = Parameter("N", "The force.")
+
+        def law(p, port):
+            """Always the same."""
+            return Law(port=-p.force, supplied=p.force * port.v)
+
+
     class Size(Component):
         """A number as a signal."""
 
@@ -58,8 +71,10 @@ CLASSES = '''
 
 '''
 NODES, STORED, FREE, APART, PULL, LOCK, HELD, RIM = 10, 8, 3, 0.1, 100.0, 50.0, 30.0, 10.0
-GEAR, RADIUS = 2.5, 0.6
-RATIO = GEAR * RADIUS
+GEAR, RADIUS, TEETH = 2.0, 0.6, 0.8
+RATIO = GEAR * RADIUS / TEETH
+HUNG = {1: 7.0, 3: -2.5, 9: 4.0}
+"""Constant forces on nodes [N]."""
 CARRIED = STORED - FREE
 """Ten nodes; eight of them inboard of the place, of which the last three may come off and stay unknowns."""
 
@@ -76,8 +91,11 @@ def scene_of(rim, size):
     for k in range(NODES):
         parts.append(f"node{k}: {{type: Mass, mass: {k + 1} kg, position: {APART * k} m}}")
         place = APART * (STORED - 0.5)
-        parts.append(f"bond{k}: {{type: Geared, place: {place} m, gear: {GEAR}, lock: {LOCK} N*s/m}}")
+        parts.append(f"bond{k}: {{type: Geared, place: {place} m, gear: {GEAR}, teeth: {TEETH}, lock: {LOCK} N*s/m}}")
         ports = [f"node{k}.flange", f"bond{k}.node"]
+        if k in HUNG:
+            parts.append(f"weight{k}: {{type: Hung, force: {HUNG[k]} N}}")
+            ports.append(f"weight{k}.port")
         ports += [f"spring{k}.b"] if k else []
         ports += [f"spring{k + 1}.a"] if k < NODES - 1 else []
         joins.append(", ".join(ports))
@@ -127,7 +145,7 @@ def numbers_of(system, nodes):
 
 @pytest.mark.parametrize("free", range(STORED + 2))
 def test_the_nodes_nearest_to_coming_off_are_not_entrained(wound, monkeypatch, free):
-    """They lie in the order of their numbers; the ratio is gear times radius, the bond as strong as the law says."""
+    """They lie in the order of their numbers; the ratio is gear times radius over teeth, the bond as strong as the law says."""
     monkeypatch.setattr(entraining, "KEPT_FREE", free)
     system, y = wound()
     bonds = Bonds(system)
@@ -185,9 +203,9 @@ def test_what_a_moved_rim_takes_along_moves_with_time(wound):
 
 
 def pulls(places):
-    """Force of the springs on every node."""
+    """Force of the springs on every node, and of what hangs there."""
     stretch = np.diff(places) - APART / 2
-    return PULL * (np.append(stretch, 0.0) - np.append(0.0, stretch))
+    return PULL * (np.append(stretch, 0.0) - np.append(0.0, stretch)) + [HUNG.get(k, 0.0) for k in range(NODES)]
 
 
 def test_the_part_is_the_rim_with_all_that_it_carries(wound):
@@ -220,6 +238,17 @@ def test_the_part_is_the_rim_with_all_that_it_carries(wound):
     inertia = np.diag(Called(part.problem).mass())
     assert inertia[names.index("rim.v")] == pytest.approx(RIM + RATIO**2 * sum(range(1, CARRIED + 1)))
     assert inertia[names.index(f"node{NODES - 1}.v")] == pytest.approx(NODES)
+
+
+def test_a_rim_that_is_moved_has_to_take_what_its_nodes_are_pulled_with(wound):
+    """Their springs and constant forces, `ratio` times: nothing accelerates, and bonds that are left do not slip."""
+    system, y = wound(GIVEN_RIM, pace=0.4)
+    part = system.subsystem.part(0.0, y, system.subsystem.moving(0.0, y, 2, 0.5))
+    names = [one.name for one in system.record.recorded]
+    found = np.zeros(system.n_outputs)
+    call(part.problem, "outputs", 0.0, y[part.unknowns], found)
+    acts = pulls(np.array([y[at(system, f"node{k}.x")] for k in range(NODES)]))
+    assert abs(found[names.index("rim.force")]) == pytest.approx(abs(RATIO * acts[:CARRIED].sum()))
 
 
 def test_a_ratio_that_may_change_with_time_lets_nothing_be_left_out(wound):

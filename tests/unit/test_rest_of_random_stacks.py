@@ -128,3 +128,37 @@ def test_what_rests_does_not_depend_on_the_order_of_a_netlist(scene, seed):
         hold(system, held)
         found.append(resting(system, np.zeros(system.n))[0])
     assert found[0] == found[1] == found[2]
+
+
+def test_a_block_without_speed_that_a_constant_force_pulls_does_not_rest(scene, library):
+    """Nothing in its balance varies but its speed, and that is zero now; it will not be."""
+    weight = library('''
+        class Hung(Component):
+            """A constant force."""
+
+            port = Translational("a body")
+            force = Parameter("N", "The force.", default=5.0)
+
+            def law(p, port):
+                """Always the same."""
+                return Law(port=-p.force, supplied=p.force * port.v)
+
+    ''')  # fmt: skip
+    text = """
+        components:
+          floor: {type: Ground}
+          held: {type: Mass, mass: 1 kg}
+          loose: {type: Mass, mass: 1 kg}
+          one: {type: Hung}
+          other: {type: Hung}
+          pad: {type: Contact, normal_force: 30 N, curve: 0.5}
+        connections:
+          - [floor.flange, pad.a]
+          - [pad.b, held.flange, one.port]
+          - [loose.flange, other.port]
+        friction: {method: hold}
+        run: {stop: 1 s}
+    """
+    system = scene(text, (weight,)).system.instance()
+    hold(system, ["pad"])
+    assert resting(system, np.zeros(system.n))[0] == {"held.x", "held.v", "pad.force"}
