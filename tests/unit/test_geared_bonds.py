@@ -56,7 +56,7 @@ CLASSES = '''
 
         def law(p, port):
             """Always the same."""
-            return Law(port=-p.force, supplied=p.force * port.v)
+            return Law(port=-p.force)
 
 
     class Size(Component):
@@ -145,7 +145,7 @@ def numbers_of(system, nodes):
 
 @pytest.mark.parametrize("free", range(STORED + 2))
 def test_the_nodes_nearest_to_coming_off_are_not_entrained(wound, monkeypatch, free):
-    """They lie in the order of their numbers; the ratio is gear times radius over teeth, the bond as strong as the law says."""
+    """They lie in the order of their numbers; ratio and bond are those of the law."""
     monkeypatch.setattr(entraining, "KEPT_FREE", free)
     system, y = wound()
     bonds = Bonds(system)
@@ -217,6 +217,10 @@ def test_the_part_is_the_rim_with_all_that_it_carries(wound):
     assert kept - {"energy.dissipated", "energy.supplied"} == {
         "rim.x", "rim.v", *(f"node{k}.{one}" for k in outboard for one in "xv")
     }  # fmt: skip
+    laws = zip(system.blocks, moving.laws, strict=True)
+    assert {block.instances[k].path for block, some in laws for k in np.flatnonzero(some)}.isdisjoint(
+        {"weight1", "weight3", *(f"bond{k}" for k in range(CARRIED)), *(f"spring{k}" for k in range(1, CARRIED))}
+    )
     part = system.subsystem.part(0.0, y, moving)
     chance = np.random.default_rng(5)
     names = [system.unknown_names[k] for k in part.unknowns]

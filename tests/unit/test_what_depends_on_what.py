@@ -12,6 +12,7 @@ from fairlead.system.active.partition import Partition
 from fairlead.system.active.subsystem import _own_unknowns
 from fairlead.system.arrays.portions import portions
 from fairlead.system.compiled.asking import call, guards_at
+from tests.callbacks import Called
 from tests.unit.stacks import drawn, hold
 
 SEEDS = range(5)
@@ -232,21 +233,41 @@ def test_guards_that_are_one_place_change_with_it_as_fast_as_they_are_said_to(sc
     assert straight == {g for g, places in of_guard.items() if places == 1}
 
 
-def alone(system, name):
-    return {f"{name}.{one}" for one in "xv"}
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+def test_two_ends_that_follow_one_place_count_once_with_what_is_left_of_both(scene, library, ratio):
+    """b goes ratio times as far as a: a guard on their distance changes by ratio - 1, or not at all."""
+    system = scene(CHAIN, (library(BENT),)).system.instance()
+    a, b = (system.unknown_names.index(name) for name in ("a.x", "b.x"))
+    along = nothing_entrained(system)
+    along.place[b], along.ratio[b] = a, ratio
+    found = dependences(system, laws(system), along, guards_at(system, 0.0, np.zeros(system.n)))
+    owner = [system.machine_names[m] for m in system.memory["guard_machines"]]
+    told = sorted(
+        (owner[found.members.guard[member]], system.unknown_names[place], float(slope))
+        for member, place, slope in zip(found.member, found.member_z, found.slope, strict=True)
+    )
+    of_ab = [("ab", "a.x", ratio - 1.0)] if ratio != 1.0 else []  # its length
+    wanted = [*of_ab, ("ab", "a.x", 2.0), ("bc", "a.x", -ratio), ("bc", "c.x", 1.0), ("bc", "a.x", 2 * ratio)]
+    assert told == sorted(wanted)
 
 
-@pytest.mark.parametrize("margin", [0, 3])
-def test_with_nothing_entrained_only_what_is_a_components_own_may_be_a_number(scene, margin):
-    """Positions and speeds of bodies vary in any case; of a stack also every force that varies with one of them."""
-    stack, chance = drawn(1)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_with_nothing_entrained_only_what_is_a_components_own_may_be_a_number(scene, seed):
+    """Bodies move in any case, and forces of contacts that hold with them; of one that slides it is what it is.
+
+    Of df/dy nothing is left in the rows of what is left out but what these unknowns have to do with each other.
+    """
+    stack, chance = drawn(seed)
     system = scene(stack.text()).system.instance()
-    y = np.zeros(system.n)
-    hold(system, stack.contacts)
-    found = Partition(system, laws(system), nothing_entrained(system), margin, 0.0, y)
-    kept = {system.unknown_names[k] for k in np.flatnonzero(found.kept)}
-    assert kept >= set.union(*(alone(system, f"n{k}") for k in range(1, stack.blocks + 1)))
+    held = [name for name in stack.contacts if chance.random() < 0.5]
+    hold(system, held)
+    y = chance.uniform(-1, 1, system.n)
+    found = Partition(system, laws(system), nothing_entrained(system), 3, 0.0, y)
+    left_out = {system.unknown_names[k] for k in np.flatnonzero(~found.kept)}
+    assert left_out <= {f"{name}.force" for name in stack.contacts if name not in held}
     assert found.hindered() == set()
+    slopes = Called(system).jacobian(0.0, y)[0]
+    assert not slopes[~found.kept][:, found.kept].any()
     moving = found.moving()
     part = system.subsystem.part(0.0, y, moving)
     later = y + np.where(moving.kept & ~system.quadrature, chance.uniform(-0.1, 0.1, system.n), 0.0)
