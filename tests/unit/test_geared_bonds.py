@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from fairlead.integrate import Run, parts
+from fairlead.integrate.parts import SLOPES, ActiveSubsystem
+from fairlead.integrate.rodas.tableau import TABLEAUS
 from fairlead.system.active import entrained as entraining
 from fairlead.system.active import subsystem as looking
 from fairlead.system.active.entrained import Bonds, entrained
@@ -318,3 +321,27 @@ def test_a_whole_is_given_back_all_that_the_rim_takes_along(wound):
         assert later[at(system, f"node{k}.x")] == pytest.approx(y[at(system, f"node{k}.x")] + RATIO * 0.03)
         # its bond slips by as much as accelerates it as fast as its place on the rim
         assert f[at(system, f"node{k}.v")] / (k + 1) == pytest.approx(RATIO * rim)
+
+
+def test_a_run_takes_such_a_part_at_once_and_gives_back_what_is_taken_along(wound, monkeypatch):
+    """What lies on a rim cannot move by itself, so nothing has to be waited for; places and slopes follow the rim."""
+    monkeypatch.setattr(parts, "LEAST", 1)
+    system, y = wound()
+    active = ActiveSubsystem(system.of, Run(stop=1.0), TABLEAUS[Run(stop=1.0).method])
+    active.whole_problem.zones[:] = system.zones
+    active.whole.array["y"][:] = y
+    active.whole.number["t_release"] = np.inf
+    active.whole.number["steps"] = 10
+    active.restrict()
+    assert active.part.sure
+    mine = [system.unknown_names[k] for k in active.part.unknowns]
+    active.memory.array["y"][mine.index("rim.x")] += 0.02
+    for count, name in enumerate(SLOPES):
+        active.memory.array[name][mine.index("rim.v")] = 1.0 + count
+    found = active.finish()
+    for k in range(CARRIED):
+        x, v = at(system, f"node{k}.x"), at(system, f"node{k}.v")
+        assert found.array["y"][x] == pytest.approx(y[x] + RATIO * 0.02)
+        assert [found.array[name][v] for name in SLOPES] == pytest.approx(
+            [RATIO * (1.0 + count) for count in range(len(SLOPES))]
+        )

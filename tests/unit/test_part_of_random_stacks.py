@@ -14,7 +14,7 @@ from fairlead.system.compiled.asking import call, guards_at
 from tests.callbacks import Called
 from tests.unit.stacks import drawn, hold, standing
 
-SEEDS = range(5)
+SEEDS = range(4)
 MARGINS = (0, 2)
 
 

@@ -15,7 +15,7 @@ from fairlead.system.compiled.asking import call, guards_at
 from tests.callbacks import Called
 from tests.unit.stacks import drawn, hold
 
-SEEDS = range(5)
+SEEDS = range(4)
 BENT = '''
     class Bent(Component):
         """A force that goes with the square of a stretch, and ends by two guards."""

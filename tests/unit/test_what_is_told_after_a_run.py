@@ -23,7 +23,7 @@ from fairlead.results import Event
 from fairlead.results.damage import DamagedResultsError
 from fairlead.system.arrays.pressing import Pressed
 
-SEEDS = range(8)
+SEEDS = range(5)
 
 
 class Rows:
@@ -162,7 +162,7 @@ def start_of(chance, n=12):
     """A problem with n unknowns of which every third is a speed, as it was given and as it began."""
     units = ["m/s" if k % 3 == 0 else "m" for k in range(n)]
     unknowns = [SimpleNamespace(name=f"p{k // 2}.u{k}", unit=unit) for k, unit in enumerate(units)]
-    given = chance.choice([0.0, 1.0, -2.0], n)
+    given = chance.choice([0.0, 1.0, -2.0, 3e-7], n)
     begun = given * chance.choice([1.0, 1.0 + 1e-9, 1.5, 1e-5], n) + chance.choice([0.0, 1e-9], n)
     problem = SimpleNamespace(
         initial=given, absolute=np.full(n, 1e-6), relative=np.full(n, 1e-6), cap=np.full(n, np.inf),
@@ -172,7 +172,7 @@ def start_of(chance, n=12):
     return problem, given, begun
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", range(8))
 def test_start_values_that_settling_changed_are_told_with_what_they_became(seed):
     """By more than their weight; of a speed also that nothing is left."""
     problem, given, begun = start_of(np.random.default_rng(seed))
