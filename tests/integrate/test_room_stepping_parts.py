@@ -56,10 +56,10 @@ def judged():
     from fairlead.integrate.stepping.theta_step import judge_residual
 
     @compiled
-    def judge(problem, point, linear, stepping, solves, previous):
-        return judge_residual(problem, point, linear, stepping, solves, previous)[0]
+    def judge(problem, point, linear, stepping, h, solves, previous):
+        return judge_residual(problem, point, linear, stepping, h, solves, previous)[0]
 
-    return entry(judge, ("problem", "point", "linear", "stepping"), "id", "i")
+    return entry(judge, ("problem", "point", "linear", "stepping"), "did", "i")
 
 
 @pytest.mark.parametrize(
@@ -79,10 +79,20 @@ def test_what_follows_a_solve_depends_on_what_is_left_and_how_many_there_were(
     linear, residual, solves, previous, verdict, linearised
 ):
     at = memory({"n": 1, "linear": linear, "linearised": 1, "dense": 1, "unchecked": 1}, b=[residual],
-                row_scale=[1.0], weight=[1.0], quadrature=[0], column_scale=[1.0])  # fmt: skip
-    assert judged()(at, solves, previous) == verdict
+                row_scale=[1.0], weight=[1.0], quadrature=[0], column_scale=[1.0], diagonal_mass=[-1])  # fmt: skip
+    assert judged()(at, 0.1, solves, previous) == verdict
     assert at.number["linearised"] == linearised
     assert at.number["unchecked"] == (0 if verdict == DONE else 1)
+
+
+@pytest.mark.parametrize(("ulps", "verdict"), [(2, DONE), (6, ONCE_MORE)])
+def test_what_rounding_leaves_of_a_change_is_solved_however_small_its_weight_is(ulps, verdict):
+    """M (y1 - y0)/h with M = 2 and y = 2^23: an ulp of that is 2^-29, over h = 1/8."""
+    left = ulps * 2.0 * 2.0**-29 * 8.0
+    at = memory({"n": 1, "linear": 0, "linearised": 1, "dense": 1, "n_mass": 1}, b=[left], row_scale=[1e3 / left],
+                weight=[1.0], quadrature=[0], column_scale=[1.0], diagonal_mass=[0], mass=[2.0],
+                y_end=[2.0**23])  # fmt: skip
+    assert judged()(at, 0.125, 1, 1.0) == verdict
 
 
 def test_zones_that_are_given_back_are_not_those_of_the_matrix():
