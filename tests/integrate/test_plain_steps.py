@@ -173,13 +173,13 @@ def test_a_corner_is_where_a_force_that_presses_is_zero_if_a_guard_has_come_to_i
 @pytest.mark.parametrize("after", [0, 1, 3])
 @pytest.mark.parametrize("seed", range(10))
 def test_what_rounding_makes_of_a_third_difference_is_no_error(seed, after):
-    """Values on a straight line, each rounded, in steps of any lengths: nothing of them is left, and the bound is near.
+    """Values on a straight line, each rounded, in steps that at most double: nothing is left, and the bound is near.
 
     `after` steps since a settlement: before the first of them there are slopes at a point, which are exact.
     """
     rng = np.random.default_rng(seed)
     n, far = 400, 3e6
-    h = rng.uniform(0.3, 2.0, after + 1) * 1e-6
+    h = np.cumprod(rng.uniform(0.5, 2.0, after + 1)) * 1e-6
     speed = rng.uniform(-1.0, 1.0, n)
     place = far * rng.uniform(0.5, 1.0, n)
     slopes, ends = [speed, speed], [place]
@@ -202,3 +202,15 @@ def test_what_rounding_makes_of_a_third_difference_is_no_error(seed, after):
     curve = (slopes[-1] - slopes[-2]) / (gaps[-1] + 0.5 * h[-1])
     before = (slopes[-2] - slopes[-3]) / at.number["gap_before"]
     assert bound / 40 < np.abs(third * (curve - before)).max() < bound
+
+
+@pytest.mark.parametrize("short", [1e-3, 1e-7])
+@pytest.mark.parametrize("which", [0, 1])
+def test_a_step_before_that_was_far_shorter_hides_no_error(which, short):
+    """Rounding of the slope of a short step is large; what is left out is that of steps a quarter as long as this."""
+    h = [1.0, 1.0, 1.0]
+    h[which] = short
+    find = plain_room("stepping.step_error.find_rounding", "stepping.rule")
+    asked = {"gap": 0.5 * h[1], "gap_before": 0.5 * (h[0] + h[1])}
+    third = 1.0 / 6.0 / (asked["gap"] + 0.5 + asked["gap_before"])
+    assert find(memory(asked), third, 0.0, 1.0) <= 40 * 2.0**-52

@@ -68,7 +68,7 @@ def test_a_block_rests_where_contacts_that_hold_lead_to_the_floor(scene, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_what_stands_on_a_block_with_a_speed_does_not_rest(scene, seed):
-    """A block that was caught with a slip left over is as if it were not there."""
+    """A block that is held with a slip left over is as if it were not there."""
     stack, chance = drawn(seed)
     system = scene(stack.text()).system.instance()
     hold(system, stack.contacts)

@@ -144,7 +144,8 @@ def due_at_start(m, h):
 
     Where zones have switched in the step, its end is that of zones that were given up, and may be anywhere: by such a
     line a body at 0.05 m/s has come to rest after 1e-8 s. So only what is at its limit at the start is due there, and
-    the step is halved, as long as it is longer than what counts as its start.
+    the step is halved, as long as it is longer than what counts as its start. A step of fixed length is settled, since
+    in real time its work is bounded.
     """
     run, point, guards, rule = m.run, m.point, m.events.guards, m.stepping.rule
     if not jump_at_start(run, point, rule):

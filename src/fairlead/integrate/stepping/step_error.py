@@ -7,8 +7,8 @@
     difference     h^3/6 [k_n, k_n-1, k_n-2] = h^3 y'''/12, the error of the midpoint rule
     the largest    of these differences and of what they do not show
 
-Values are known to a few ulps, so that their differences say nothing below `find_rounding` of these: a position of
-3000 km in steps of a nanosecond has a third difference of rounding alone, and no shorter step makes that less.
+Values are known to a few ulps, so that their differences say nothing below what `find_rounding` makes of these. Third
+differences of a position of 3000 km are rounding alone in steps of a nanosecond, and a shorter step has no less of it.
 
 The error of the midpoint rule is taken away before (third_order.py): what is controlled is the error of the step
 without that, which is more than what is left of it.
@@ -36,6 +36,9 @@ from fairlead.integrate.stepping.residual import CHANGE_KNOWN
 NOTHING_MOVES = 1e-2
 """Where no position changes by more than this share of its weight, HOLD_SHARE of the second difference of a holding
 force counts as its error: what is recorded of a force that swings while nothing moves would else be a few means."""
+SHORTEST = 0.25
+"""Share of a step that those before it count as, at least, for the rounding of its differences: steps at most double
+(history.MOST_GROWTH), so that the two before are half and a quarter of it."""
 UNEVEN = 4.0
 """The second derivative c of the parabola that rows inside a step lie on is at most so many times the one before, and
 none where it turns round: what is stiff rings at its steps, and a parabola through that shows motions that never were.
@@ -141,13 +144,14 @@ def find_rounding(rule, third, second, h):
     """Share of a value that rounding makes of third [k_n, k_n-1, k_n-2] and second [k_n, k_n-1], at most.
 
     A slope over a step is known to CHANGE_KNOWN of the value over that step; after a settlement there is none before,
-    and after the first step only one: those are slopes at a point.
+    and after the first step only one: those are slopes at a point. A step before counts as SHORTEST of this one
+    at least: of the rounding of a shorter one less is seen if this one is shortened too, so it stays in the error.
     """
     before, near, far = 2.0 * rule.gap, rule.gap + 0.5 * h, rule.gap_before
     earlier = 2.0 * far - before
-    slope, slope_before = 1.0 / h, 1.0 / before if before > 0.0 else 0.0
-    slope_earlier = 1.0 / earlier if before > 0.0 and earlier > 0.0 else 0.0
-    curve, curve_before = (slope + slope_before) / near, (slope_before + slope_earlier) / far
+    slope, slope_before = 1.0 / h, 1.0 / max(before, SHORTEST * h) if before > 0.0 else 0.0
+    slope_earlier = 1.0 / max(earlier, SHORTEST * h) if before > 0.0 and earlier > 0.0 else 0.0
+    curve, curve_before = (slope + slope_before) / near, (slope_before + slope_earlier) / max(far, SHORTEST * h)
     return CHANGE_KNOWN * (third * (curve + curve_before) + abs(second) * curve)
 
 
